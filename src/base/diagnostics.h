@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pbrtmedia {
+
+/// A stretch of text in a file. A plain value that travels with each token; file names are shared.
+struct SourceLocation {
+  std::shared_ptr<const std::string> file;  ///< as shown to the user; null: not from a file
+  std::uint32_t line = 0;                   ///< 1-based; 0: the file as a whole
+  std::uint32_t column = 0;                 ///< 1-based, in bytes
+  std::uint32_t length = 1;                 ///< bytes underlined by the caret line
+
+  /// "file:line:column", "file", or "" where nothing is known.
+  std::string toString() const;
+};
+
+enum class Severity { Note, Warning, Error };
+
+struct Diagnostic {
+  Severity severity = Severity::Error;
+  SourceLocation location;
+  std::string message;  ///< what is wrong, what was found, what was expected; no trailing newline
+  std::string excerpt;  ///< the source line, or "" (then no caret is drawn)
+};
+
+/// Thrown by library code for broken input that ends the operation at hand. `main` catches and prints.
+class SceneError : public std::runtime_error {
+ public:
+  SceneError(SourceLocation location, const std::string& message)
+      : std::runtime_error(message), location_(std::move(location)) {}
+  const SourceLocation& location() const { return location_; }
+
+ private:
+  SourceLocation location_;
+};
+
+/// Collects problems so that all of them are shown together. Not thread-safe.
+class Diagnostics {
+ public:
+  void note(const SourceLocation& at, std::string message) { add(Severity::Note, at, std::move(message)); }
+  void warning(const SourceLocation& at, std::string message) {
+    add(Severity::Warning, at, std::move(message));
+  }
+  void error(const SourceLocation& at, std::string message) { add(Severity::Error, at, std::move(message)); }
+  void add(Severity severity, const SourceLocation& at, std::string message);
+  void add(const SceneError& e) { error(e.location(), e.what()); }
+
+  /// --lenient: problems that PBRT-v3 only warns about are reported through `lenientError`.
+  bool lenient = false;
+  /// A warning when `lenient`, else an error: unknown parameters and plugins and their like.
+  void lenientError(const SourceLocation& at, std::string message) {
+    add(lenient ? Severity::Warning : Severity::Error, at, std::move(message));
+  }
+
+  bool hasErrors() const { return errors_ > 0; }
+  std::size_t errorCount() const { return errors_; }
+  const std::vector<Diagnostic>& all() const { return items_; }
+  /// All messages, in order of report, each as "file:line:column: error: message" with the source line and a
+  /// caret under the stretch; excerpts are read from the files now. Identical repeats are shown once.
+  std::string format() const;
+
+ private:
+  std::vector<Diagnostic> items_;
+  std::size_t errors_ = 0;
+};
+
+/// "a, b, c" of the names nearest to `found` first (edit distance), then the rest, at most `most` of them.
+std::string nearestNames(std::string_view found, std::span<const std::string_view> known,
+                         std::size_t most = 8);
+/// "; did you mean \"x\"?" when one name is close enough, and "; known: …".
+std::string suggestion(std::string_view found, std::span<const std::string_view> known);
+
+}  // namespace pbrtmedia

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace pbrtmedia {
+
+/// The bytes of a whole file, memory-mapped; gzip (by its magic bytes) is unpacked into memory. Move-only.
+/// Throws SceneError (location: the file) when it cannot be opened, is a directory, or the gzip data is
+/// truncated or corrupt. Safe to read from many threads.
+class FileBytes {
+ public:
+  /// `maxUnpacked` bounds what a compressed file may grow to.
+  static FileBytes open(const std::filesystem::path& path, std::size_t maxUnpacked = std::size_t{1} << 36);
+  /// Everything on a stream descriptor until end of file (standard input), unpacked when it is gzip.
+  static FileBytes readDescriptor(int descriptor, const std::string& shownName);
+  FileBytes(FileBytes&& o) noexcept;
+  FileBytes& operator=(FileBytes&& o) noexcept;
+  FileBytes(const FileBytes&) = delete;
+  FileBytes& operator=(const FileBytes&) = delete;
+  ~FileBytes();
+
+  std::string_view text() const { return {data_, size_}; }
+  std::span<const std::byte> bytes() const { return {reinterpret_cast<const std::byte*>(data_), size_}; }
+  /// Tells the kernel that the first `count` bytes will not be read again, so they stop counting as memory.
+  void releaseUpTo(std::size_t count) const;
+
+ private:
+  FileBytes() = default;
+  const char* data_ = nullptr;
+  std::size_t size_ = 0;
+  bool mapped_ = false;
+  std::string owned_;
+};
+
+/// Writes a file under a temporary name in the same folder, flushes it to the disk and renames it over
+/// `path`; on any failure (or an exception of `write`) the temporary is removed and the old file is left as
+/// it was. Throws std::runtime_error naming the path and the system's reason.
+void writeFileAtomically(const std::filesystem::path& path,
+                         const std::function<void(const std::filesystem::path& temporary)>& write);
+
+}  // namespace pbrtmedia

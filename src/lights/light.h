@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "accelerators/accelerator.h"
+#include "base/bounds.h"
+#include "base/ray.h"
+#include "base/vec.h"
+#include "shapes/surface_interaction.h"
+#include "spectrum/rgb.h"
+
+namespace pbrtmedia {
+
+/// A direction toward a light from a reference point.
+struct LightSample {
+  Rgb radiance;  ///< arriving along -wi, before visibility and transmittance
+  Vector3f wi;   ///< unit, from the reference point to the light
+  float distance =
+      kInfinity;       ///< world length of the shadow segment; infinity for distant and infinite lights
+  float pdf = 0;       ///< solid angle; 1 for delta lights; 0: no sample
+  PrimitiveId target;  ///< the emitting primitive, to be left out of the visibility test (area lights)
+};
+
+/// A source of light, world space. Immutable after `preprocess`, thread-safe.
+class Light {
+ public:
+  virtual ~Light() = default;
+  virtual std::string_view typeName() const = 0;
+  /// Position or direction is a single point: no BSDF sample can find it.
+  virtual bool isDelta() const = 0;
+  /// Answers rays that leave the scene.
+  virtual bool isInfinite() const { return false; }
+  /// "samples": how many of this light's samples `directlighting` takes.
+  int sampleCount() const { return sampleCount_; }
+  /// Called once with the scene's bounds before rendering.
+  virtual void preprocess(const Bounds3f& sceneBounds) { (void)sceneBounds; }
+
+  virtual LightSample sample(Point3f reference, Point2f u) const = 0;
+  /// Solid-angle density of `sample(reference, .)` for unit `wi`. `hit`: the light's own surface point found
+  /// along wi (area lights), null for lights at infinity. 0 for delta lights.
+  virtual float pdf(Point3f reference, Vector3f wi, const SurfaceInteraction* hit) const = 0;
+  /// Radiance of a ray that left the scene along unit `direction`; black except for infinite lights.
+  virtual Rgb background(Vector3f direction) const {
+    (void)direction;
+    return {};
+  }
+  /// Total emitted power estimate for light selection (scene-language reference 16.9), in W if L is in W/(m²
+  /// sr).
+  virtual Rgb power() const = 0;
+
+ protected:
+  explicit Light(int sampleCount = 1) : sampleCount_(sampleCount) {}
+
+ private:
+  int sampleCount_;
+};
+
+/// A light on a primitive of a shape.
+class AreaLight : public Light {
+ public:
+  using Light::Light;
+  /// Radiance leaving a surface point of this light along unit `wo`; the side is judged by `normal`.
+  virtual Rgb emitted(Normal3f normal, Vector3f wo) const = 0;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <variant>
+
+#include "base/vec.h"
+#include "materials/bsdf_flags.h"
+#include "materials/lobes.h"
+#include "shapes/surface_interaction.h"
+#include "spectrum/rgb.h"
+
+namespace pbrtmedia {
+
+struct BsdfSample {
+  Rgb f;                              ///< without the cosine; for specular lobes f = weight / |cos|
+  Vector3f wi;                        ///< unit, world space
+  float pdf = 0;                      ///< solid angle (all matching lobes); 0: no sample
+  BsdfFlags flags = BsdfFlags::None;  ///< of the lobe that was sampled
+};
+
+/// A sum of lobes in one shading frame: a plain value, no allocation. Rules of the scene-language
+/// reference 15.1: reflection or transmission is judged by the geometric normal, the cosine uses the shading
+/// normal.
+class Bsdf {
+ public:
+  static constexpr std::size_t kMaxLobes = 8;
+
+  Bsdf() = default;  ///< no lobes: black
+  /// `eta`: relative index of the surface, for roulette book-keeping (1: none).
+  explicit Bsdf(const SurfaceInteraction& si, float eta = 1);
+
+  /// CHECK-fails past kMaxLobes (construction refuses such mixes).
+  void add(const Lobe& lobe);
+  std::size_t count(BsdfFlags allowed = BsdfFlags::All) const;
+  float eta() const { return eta_; }
+  Normal3f shadingNormal() const { return frame_.n; }
+
+  /// World-space unit directions, both pointing away from the surface.
+  Rgb f(Vector3f wo, Vector3f wi, BsdfFlags allowed = BsdfFlags::All) const;
+  float pdf(Vector3f wo, Vector3f wi, BsdfFlags allowed = BsdfFlags::All) const;
+  /// Picks a matching lobe uniformly with u.x (stretched for reuse), then a direction.
+  BsdfSample sample(Vector3f wo, Point2f u, BsdfFlags allowed = BsdfFlags::All) const;
+
+  /// Lobes and frame, for the mix material.
+  std::size_t lobeCount() const { return count_; }
+  const Lobe& lobe(std::size_t i) const { return lobes_[i]; }
+  /// Multiplies every lobe's weight from index `first` on.
+  void scaleFrom(std::size_t first, Rgb weight);
+
+ private:
+  std::array<Lobe, kMaxLobes> lobes_{};
+  std::size_t count_ = 0;
+  Frame frame_;
+  Normal3f ng_{0, 0, 1};
+  float eta_ = 1;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include "materials/bsdf.h"
+#include "shapes/surface_interaction.h"
+
+namespace pbrtmedia {
+
+/// Turns a surface point into a BSDF. Immutable, thread-safe. "No material" is a null pointer, not a class.
+class Material {
+ public:
+  virtual ~Material() = default;
+  /// Applies the bump map (changes `si.shading`) and returns the lobes. `mergeSpecular`: smooth glass is one
+  /// lobe that picks reflection or transmission (path, volpath); false: two lobes (whitted, directlighting).
+  /// Camera paths: transmitted radiance is scaled by (eta_i/eta_t)².
+  virtual Bsdf bsdf(SurfaceInteraction& si, bool mergeSpecular) const = 0;
+};
+
+}  // namespace pbrtmedia

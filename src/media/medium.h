@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/bounds.h"
+#include "base/rng.h"
+#include "base/segment.h"
+#include "base/statistics.h"
+#include "media/phase_function.h"
+#include "spectrum/rgb.h"
+
+namespace pbrtmedia {
+
+/// The outcome of a free flight along a segment.
+struct FreeFlight {
+  bool collided = false;
+  double t = 0;  ///< where, when collided
+  /// Per channel. Collided: sigma_s(x) T(x) / pdf(t), which carries the albedo. Passed: T / Pr{pass}.
+  /// Expectation over both outcomes reproduces the radiative transfer equation; never clamped.
+  Rgb weight{1.0f};
+};
+
+/// How a medium behaves where others overlap it.
+struct OverlapRule {
+  /// Boundary: PBRT-v3's rule, a boundary names the medium on both its sides. Add: the medium is present
+  /// between its boundaries whatever else is there, and coefficients add. Priority: as Add, but of the media
+  /// present that have a priority only the one with the highest counts.
+  enum class Mode { Boundary, Add, Priority } mode = Mode::Boundary;
+  int priority = 0;
+};
+
+/// A participating medium: joins a field, bounds, an estimator and a free-flight sampler
+/// (docs/architecture.md). Segments are in the world space of the medium's definition. Virtual once per
+/// segment. Immutable while a pass is rendered, thread-safe; random numbers and counters are arguments.
+class Medium {
+ public:
+  virtual ~Medium() = default;
+  virtual std::string_view typeName() const = 0;
+  const std::string& name() const { return name_; }
+  OverlapRule overlap() const { return overlap_; }
+
+  /// Unbiased estimate of exp(-∫ sigma_t dt) per channel over the segment; may leave [0, 1] where the
+  /// estimator's traits say so. Zero length: exactly 1.
+  virtual Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const = 0;
+  /// Samples where the next real collision lies.
+  virtual FreeFlight sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters& counters) const = 0;
+  virtual const PhaseFunction& phase() const = 0;
+  /// Where the density can be positive; infinite for a homogeneous medium.
+  virtual Bounds3f bounds() const = 0;
+  /// One line for --verbose: field, bounds, estimator, sampler, bytes.
+  virtual std::string describe() const = 0;
+
+ protected:
+  Medium(std::string name, OverlapRule overlap) : name_(std::move(name)), overlap_(overlap) {}
+
+ private:
+  std::string name_;
+  OverlapRule overlap_;
+};
+
+}  // namespace pbrtmedia
