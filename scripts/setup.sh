@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-2-Clause
+# Sourced by ./render and ./check: installs what is missing, then configures and builds one preset.
+
+# say <text>: one line about what is being done, on standard error.
+say() { printf '\033[1m==>\033[0m %s\n' "$*" >&2; }
+
+# install_packages <render|check>: Debian packages of scripts/packages.txt that are not there yet.
+install_packages() {
+  local purpose=$1 missing=() name note
+  while read -r name note; do
+    case $name in '' | '#'*) continue ;; esac
+    [ "$note" = check ] && [ "$purpose" = render ] && continue
+    dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q '^install ok installed$' || missing+=("$name")
+  done <"$root/scripts/packages.txt"
+  [ ${#missing[@]} -eq 0 ] && return 0
+  command -v apt-get >/dev/null || {
+    echo "error: missing packages (${missing[*]}) and no apt-get here; install them and run again" >&2
+    return 1
+  }
+  local sudo=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || {
+      echo "error: need root (or sudo) to install: ${missing[*]}" >&2
+      return 1
+    }
+    sudo=(sudo)
+  fi
+  say "installing ${#missing[@]} packages: ${missing[*]}"
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >&2
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" >&2
+}
+
+# build_preset <preset> <cmake options...> -- <ninja targets...>: configures when needed, then builds.
+build_preset() {
+  local preset=$1 options=() build
+  shift
+  while [ $# -gt 0 ] && [ "$1" != -- ]; do
+    options+=("$1")
+    shift
+  done
+  [ $# -gt 0 ] && shift
+  build=$root/build/$preset
+  # Configure again only when the options changed; ninja itself notices changed CMake files.
+  if [ ! -f "$build/build.ninja" ] || [ "$(cat "$build/.options" 2>/dev/null)" != "${options[*]}" ]; then
+    say "configuring $preset"
+    (cd "$root" && cmake --preset "$preset" "${options[@]}" >"$build.log" 2>&1) || {
+      mkdir -p "$build"
+      cat "$build.log" >&2
+      return 1
+    }
+    printf '%s' "${options[*]}" >"$build/.options"
+  fi
+  say "building $preset"
+  ninja -C "$build" -j "$(nproc)" "$@" >&2
+}
