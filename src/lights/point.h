@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include "base/transform.h"
+#include "lights/light.h"
+
+namespace pbrtmedia {
+
+/// `LightSource "point"`: the same intensity in all directions, irradiance I cosθ / r².
+class PointLight final : public Light {
+ public:
+  struct Params {
+    Rgb intensity{1.0f};  ///< "I" times "scale", W/sr
+    Point3f from;  ///< world-space offset: added to the light's origin after the CTM, not rotated by it
+  };
+  PointLight(const Transform& worldFromLight, const Params& params);
+
+  std::string_view typeName() const override { return "point"; }
+  bool isDelta() const override { return true; }
+  LightSample sample(Point3f reference, Point2f u) const override;
+  float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
+  Rgb power() const override;
+  Point3f position() const { return position_; }
+
+ private:
+  Point3f position_;
+  Rgb intensity_;
+};
+
+}  // namespace pbrtmedia
