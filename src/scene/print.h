@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/diagnostics.h"
+
+namespace pbrtmedia {
+
+struct PrintOptions {
+  bool meshesToPly = false;         ///< --toply: big triangle meshes become PLY files
+  std::size_t minPlyIndices = 500;  ///< meshes with fewer indices stay in the text
+  std::filesystem::path plyFolder;  ///< where the files are written; "" is the working directory
+  std::string plyPrefix = "mesh";   ///< files are <prefix>_00001.ply, <prefix>_00002.ply, …
+};
+
+/// --cat: a normalised copy of scene files: one directive per line, indented by block, parameters on lines of
+/// their own, comments kept, Include not followed, spectra as rgb. What is printed parses to the same scene.
+/// Problems go to `diagnostics`; printing stops at a statement that cannot be read.
+void printFiles(std::span<const std::filesystem::path> files, std::ostream& out, Diagnostics& diagnostics,
+                const PrintOptions& options = {});
+void printText(std::string_view text, std::string_view shownName, const std::filesystem::path& folder,
+               std::ostream& out, Diagnostics& diagnostics, const PrintOptions& options = {});
+
+}  // namespace pbrtmedia
