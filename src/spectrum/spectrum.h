@@ -32,6 +32,10 @@ Rgb blackbodyToRgb(float kelvin, float scale);
 /// line and column at the first thing that is not a finite number.
 std::vector<float> parseNumberText(std::string_view text, const std::filesystem::path& shownName);
 
+/// The samples of a .spd text, in its order. Throws SceneError for no numbers, an odd count, a repeated
+/// wavelength, or what `parseNumberText` refuses.
+std::vector<SpectralSample> parseSpectrumText(std::string_view text, const std::filesystem::path& shownName);
+
 /// Reads a .spd file (wavelength value pairs). Throws SceneError when it cannot be read or is not such a
 /// file.
 std::vector<SpectralSample> readSpectrumFile(const std::filesystem::path& path);

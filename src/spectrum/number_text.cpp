@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "base/diagnostics.h"
+#include "base/files.h"
+#include "spectrum/spectrum.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// What a compressed spectrum or lens file may unpack to: far above any real one, far below the memory.
+constexpr std::size_t kMaxTextBytes = std::size_t{1} << 28;
+
+constexpr bool isBlank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
+}
+
+/// A token as a finite float: decimal, with an optional sign and exponent. Values too small for a float are
+/// 0.
+std::optional<float> parseFinite(std::string_view token) {
+  std::string_view digits = token;
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+  double value = 0;
+  const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (status == std::errc::invalid_argument || end != digits.data() + digits.size()) return std::nullopt;
+  // from_chars does not tell too large from too small; strtod does.
+  if (status == std::errc::result_out_of_range) value = std::strtod(std::string(digits).c_str(), nullptr);
+  const float narrowed = static_cast<float>(value);
+  if (!std::isfinite(narrowed)) return std::nullopt;
+  return narrowed;
+}
+
+/// At most 40 printable characters of a token, for messages.
+std::string shown(std::string_view token) {
+  std::string out;
+  for (const char c : token.substr(0, 40)) out += (c >= 0x20 && c < 0x7f) ? c : '?';
+  return token.size() > 40 ? out + "..." : out;
+}
+
+}  // namespace
+
+std::vector<float> parseNumberText(std::string_view text, const std::filesystem::path& shownName) {
+  std::vector<float> numbers;
+  std::uint32_t line = 1;
+  std::size_t lineStart = 0, i = 0;
+  while (i < text.size()) {
+    if (isBlank(text[i])) {
+      if (text[i++] == '\n') {
+        ++line;
+        lineStart = i;
+      }
+      continue;
+    }
+    if (text[i] == '#') {
+      i = std::min(text.find('\n', i), text.size());
+      continue;
+    }
+    const std::size_t start = i;
+    while (i < text.size() && !isBlank(text[i]) && text[i] != '#') ++i;
+    const std::string_view token = text.substr(start, i - start);
+    const std::optional<float> number = parseFinite(token);
+    if (!number) {
+      const SourceLocation at{std::make_shared<const std::string>(shownName.string()), line,
+                              static_cast<std::uint32_t>(start - lineStart + 1),
+                              static_cast<std::uint32_t>(token.size())};
+      throw SceneError(at, "expected a finite number, found \"" + shown(token) + "\"");
+    }
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+std::vector<SpectralSample> parseSpectrumText(std::string_view text, const std::filesystem::path& shownName) {
+  const std::vector<float> numbers = parseNumberText(text, shownName);
+  const auto fail = [&](const std::string& message) {
+    throw SceneError(SourceLocation{std::make_shared<const std::string>(shownName.string())}, message);
+  };
+  if (numbers.empty()) fail("a spectrum file needs pairs of wavelength and value, found no numbers");
+  if (numbers.size() % 2 != 0) {
+    fail("a spectrum file needs pairs of wavelength and value, found an odd count of " +
+         std::to_string(numbers.size()) + " numbers");
+  }
+  std::vector<SpectralSample> samples;
+  samples.reserve(numbers.size() / 2);
+  for (std::size_t i = 0; i < numbers.size(); i += 2) samples.push_back({numbers[i], numbers[i + 1]});
+
+  std::vector<float> wavelengths;
+  wavelengths.reserve(samples.size());
+  for (const SpectralSample& s : samples) wavelengths.push_back(s.wavelength);
+  std::sort(wavelengths.begin(), wavelengths.end());
+  const auto repeat = std::adjacent_find(wavelengths.begin(), wavelengths.end());
+  if (repeat != wavelengths.end()) {
+    std::ostringstream message;
+    message << "wavelength " << *repeat << " nm appears more than once";
+    fail(message.str());
+  }
+  return samples;
+}
+
+std::vector<SpectralSample> readSpectrumFile(const std::filesystem::path& path) {
+  const FileBytes file = FileBytes::open(path, kMaxTextBytes);
+  return parseSpectrumText(file.text(), path);
+}
+
+}  // namespace pbrtmedia
