@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <string>
+
+#include "base/bounds.h"
+#include "base/transform.h"
+#include "base/vec.h"
+#include "fields/affine_map.h"
+#include "fields/super_voxels.h"
+
+namespace pbrtmedia {
+
+/// One density throughout a box; 0 outside. Local space: the unit cube.
+class ConstantField {
+ public:
+  struct Params {
+    float density = 1;                 ///< >= 0, finite
+    Point3f p0{0, 0, 0}, p1{1, 1, 1};  ///< opposite corners in medium space; they differ on every axis
+  };
+  static constexpr std::string_view kTypeName = "constant";
+  static constexpr bool kProvenBounds = true;
+
+  /// Throws SceneError (location unknown) when a parameter is out of range.
+  ConstantField(const Params& params, const Transform& worldFromMedium);
+
+  /// Density at a local point inside the box.
+  float density(Vec3d) const { return density_; }
+  /// Density at any point of world space.
+  float densityAt(Point3f world) const;
+  const AffineMap& localFromWorld() const { return localFromWorld_; }
+  const Transform& worldFromLocal() const { return worldFromLocal_; }
+  Bounds3d localBox() const { return {{0, 0, 0}, {1, 1, 1}}; }
+  SuperVoxels superVoxels() const;
+  template <class Visit>
+  void walkPieces(Vec3d, Vec3d, double tMin, double tMax, Visit&& visit) const {
+    if (tMin < tMax) visit(tMin, tMax);
+  }
+  std::string describe() const;
+  std::size_t bytes() const { return 0; }
+
+ private:
+  float density_;
+  Transform worldFromLocal_;
+  AffineMap localFromWorld_;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/bounds.h"
+#include "base/transform.h"
+#include "base/vec.h"
+#include "fields/affine_map.h"
+#include "fields/lattice_walk.h"
+#include "fields/super_voxels.h"
+
+namespace pbrtmedia {
+
+/// What trilinear interpolation finds beyond the outermost samples.
+enum class GridBorder {
+  Zero,   ///< PBRT-v3: samples outside are 0, so the density fades over the outer half voxel
+  Clamp,  ///< the outermost sample holds up to the face of the box; 0 beyond
+};
+
+/// Samples of a density on a regular grid over a box, interpolated trilinearly. Sample (i, j, k) lies at the
+/// centre of its voxel, ((i + 1/2)/nx, ...) of the box; outside the box the density is 0.
+///
+/// Local space is the sample lattice: samples lie at whole numbers 1..n per axis, an apron that holds the
+/// border rule lies at 0 and n + 1, and the box is [1/2, n + 1/2]. So a look-up needs no test against
+/// borders.
+class GridField {
+ public:
+  struct Params {
+    int nx = 1, ny = 1, nz = 1;        ///< samples per axis, >= 1
+    std::vector<float> density;        ///< nx ny nz values >= 0, finite, x fastest
+    Point3f p0{0, 0, 0}, p1{1, 1, 1};  ///< opposite corners in medium space; they differ on every axis
+    GridBorder border = GridBorder::Zero;
+  };
+  static constexpr std::string_view kTypeName = "grid";
+  static constexpr bool kProvenBounds = true;
+
+  /// Throws SceneError (location unknown) that names the parameter or the first bad voxel. A grid of zeros is
+  /// valid and clear.
+  GridField(const Params& params, const Transform& worldFromMedium);
+
+  /// Density at a local point inside the box (up to almost half a voxel outside is safe).
+  float density(Vec3d p) const {
+    // Local coordinates are positive, so truncation is floor.
+    const std::int64_t ix = static_cast<std::int64_t>(p.x), iy = static_cast<std::int64_t>(p.y),
+                       iz = static_cast<std::int64_t>(p.z);
+    const float fx = static_cast<float>(p.x - static_cast<double>(ix)),
+                fy = static_cast<float>(p.y - static_cast<double>(iy)),
+                fz = static_cast<float>(p.z - static_cast<double>(iz));
+    const float* s = samples_.data() + (iz * slice_ + iy * row_ + ix);
+    const auto along = [](float f, float a, float b) { return a + f * (b - a); };
+    const float low = along(fy, along(fx, s[0], s[1]), along(fx, s[row_], s[row_ + 1]));
+    const float* r = s + slice_;
+    const float high = along(fy, along(fx, r[0], r[1]), along(fx, r[row_], r[row_ + 1]));
+    return along(fz, low, high);
+  }
+  /// Density at any point of world space; 0 outside the box.
+  float densityAt(Point3f world) const;
+
+  int nx() const { return n_[0]; }
+  int ny() const { return n_[1]; }
+  int nz() const { return n_[2]; }
+  const AffineMap& localFromWorld() const { return localFromWorld_; }
+  const Transform& worldFromLocal() const { return worldFromLocal_; }
+  Bounds3d localBox() const;
+  /// Bounds with cells of 2^power samples per axis, 0 <= power <= 8, larger ones for an axis-crowded grid.
+  SuperVoxels superVoxels(int power = kDefaultSuperVoxelPower) const;
+  static constexpr int kDefaultSuperVoxelPower = 2;
+  /// Cuts the line (local units) at the lattice planes: between two, the density is a cubic in t.
+  template <class Visit>
+  void walkPieces(Vec3d o, Vec3d d, double tMin, double tMax, Visit&& visit) const {
+    const LatticeShape shape{{n_[0] + std::int64_t{1}, n_[1] + std::int64_t{1}, n_[2] + std::int64_t{1}}};
+    double tEnter = tMin;
+    walkLattice(shape, o, d, tMin, tMax, [&](double tExit, std::size_t) {
+      const bool more = visit(tEnter, tExit);
+      tEnter = tExit;
+      return more;
+    });
+  }
+  std::string describe() const;
+  std::size_t bytes() const { return samples_.size() * sizeof(float); }
+
+ private:
+  int n_[3];
+  std::int64_t row_, slice_;  ///< samples from one y, z to the next, apron included
+  std::vector<float> samples_;
+  Transform worldFromLocal_;
+  AffineMap localFromWorld_;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+namespace pbrtmedia {
+
+/// Bounds of a density over one cell of a super-voxel grid, faces included.
+struct SuperVoxel {
+  float upper = 0;  ///< density <= upper everywhere in the cell; 0: the cell is empty
+  float lower = 0;  ///< density >= lower everywhere in the cell
+
+  constexpr bool operator==(const SuperVoxel&) const = default;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/bounds.h"
+#include "base/vec.h"
+#include "fields/lattice_walk.h"
+#include "fields/super_voxel.h"
+
+namespace pbrtmedia {
+
+/// A coarse grid of bounds over the local space of a field: cell (i, j, k) covers [i, i + 1] x ... times
+/// `cellSize` local units. Immutable; walking is thread-safe and makes no virtual call.
+class SuperVoxels {
+ public:
+  /// Statistics of one cell as its field computes them.
+  struct Cell {
+    SuperVoxel bound;
+    float mean = 0;  ///< of the density over the cell
+  };
+
+  /// `cellOf(i, j, k)` is called once per cell, in parallel, and must bound the density over the closed cell.
+  /// `box`: where the field lives, inside the lattice. `withMeans`: keep the means too, for warped marching.
+  SuperVoxels(const LatticeShape& shape, double cellSize, const Bounds3d& box,
+              const std::function<Cell(std::int64_t, std::int64_t, std::int64_t)>& cellOf,
+              bool withMeans = false);
+
+  const LatticeShape& shape() const { return shape_; }
+  double cellSize() const { return cellSize_; }
+  const SuperVoxel& at(std::size_t cell) const { return cells_[cell]; }
+  bool hasMeans() const { return !means_.empty(); }
+  float mean(std::size_t cell) const { return means_[cell]; }
+  /// Box around the cells that are not empty, cut to the field's box, in local units. Empty when all are.
+  const Bounds3d& occupied() const { return occupied_; }
+  /// Largest bound of all cells.
+  float maximum() const { return maximum_; }
+  std::size_t emptyCells() const { return emptyCells_; }
+  std::size_t bytes() const { return cells_.size() * sizeof(SuperVoxel) + means_.size() * sizeof(float); }
+
+  /// Calls visit(tEnter, tExit, bound) for the intervals of the line o + t d (local units), tMin <= t <=
+  /// tMax, in order and without gaps, until visit answers false. Neighbouring empty cells come as one
+  /// interval. The caller has clipped the line to `occupied()` or to the field's box.
+  template <class Visit>
+  void walk(Vec3d o, Vec3d d, double tMin, double tMax, Visit&& visit) const {
+    const double scale = inverseCellSize_;
+    double entered = tMin;  // where the interval at hand begins
+    double reached = tMin;  // up to where the line is known
+    bool stopped = false;
+    walkLattice(shape_, o * scale, d * scale, tMin, tMax, [&](double tExit, std::size_t cell) {
+      const SuperVoxel bound = cells_[cell];
+      if (bound.upper > 0) {
+        if (entered < reached && !visit(entered, reached, SuperVoxel{})) return !(stopped = true);
+        if (!visit(reached, tExit, bound)) return !(stopped = true);
+        entered = tExit;
+      }
+      reached = tExit;
+      return true;
+    });
+    if (!stopped && entered < reached) visit(entered, reached, SuperVoxel{});
+  }
+
+ private:
+  LatticeShape shape_;
+  double cellSize_, inverseCellSize_;
+  Bounds3d occupied_;
+  float maximum_ = 0;
+  std::size_t emptyCells_ = 0;
+  std::vector<SuperVoxel> cells_;
+  std::vector<float> means_;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <string_view>
+
+#include "spectrum/rgb.h"
+
+namespace pbrtmedia {
+
+/// Throws SceneError (location unknown) unless both are finite and >= 0 in every channel, and so is their
+/// sum.
+void checkCoefficients(Rgb sigmaA, Rgb sigmaS, std::string_view mediumName);
+
+}  // namespace pbrtmedia

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "base/rng.h"
+#include "fields/density_line.h"
+#include "transmittance/estimate.h"
+
+namespace pbrtmedia {
+
+/// Ratio tracking: the product of (1 - sigma_t rho(x_i) / majorant) over the points x_i of a Poisson process
+/// whose rate is the local majorant, that is the largest channel's sigma_t times the super-voxel bound.
+/// Novák, Selle & Jarosz 2014, doi:10.1145/2661229.2661292; here with piecewise constant majorants, one
+/// weight per channel, and a roulette that ends walks of little weight.
+///
+/// Bias: none, whatever the bounds. Range: [0, 1] while bounds hold; any sign and more variance beyond. Cost:
+/// the optical depth of the majorant at most; empty cells cost no look-up, and vacuum is exactly 1.
+struct RatioTracking {
+  static constexpr std::string_view kName = "ratio";
+
+  /// Below this weight a walk survives with probability weight / threshold and then weighs `threshold`.
+  /// 0: no roulette; a walk still ends where its weight is exactly 0.
+  double rouletteThreshold = 0.1;
+
+  template <DensityLine Line, std::size_t N>
+  Estimate<N> operator()(const Line& line, const Channels<N>& sigmaT, Rng& rng) const {
+    Estimate<N> estimate;
+    const double sigmaMax = maxOf(sigmaT);
+    if (!(sigmaMax > 0)) return estimate;
+    Channels<N> share;  // of the largest channel
+    for (std::size_t c = 0; c < N; ++c) share[c] = sigmaT[c] / sigmaMax;
+    Channels<N>& weight = estimate.value;
+    LookupTally& tally = estimate.tally;
+    double depth = rng.exponential();  // optical depth of the majorant to the next tentative collision
+    line.walk([&](double tEnter, double tExit, const SuperVoxel& bound) {
+      if (!(bound.upper > 0)) {
+        if constexpr (!Line::kProvenBounds) probeEmpty(line, tEnter, tExit, rng, tally);
+        return true;
+      }
+      const double majorant = sigmaMax * static_cast<double>(bound.upper), inverse = 1 / majorant;
+      const double inverseUpper = 1 / static_cast<double>(bound.upper);
+      for (double t = tEnter;;) {
+        const double depthToExit = (tExit - t) * majorant;
+        if (depth >= depthToExit) {
+          depth -= depthToExit;
+          return true;
+        }
+        t += depth * inverse;
+        const float density = line.density(t);
+        ++tally.lookups;
+        if (density > bound.upper) tally.noteViolation(density, bound.upper);
+        const double ratio = static_cast<double>(density) * inverseUpper;
+        for (std::size_t c = 0; c < N; ++c) weight[c] *= 1 - share[c] * ratio;
+        ++tally.nullCollisions;
+        if (!survives(weight, rng)) return false;
+        depth = rng.exponential();
+      }
+    });
+    return estimate;
+  }
+
+ private:
+  /// One look at a random point of a stretch whose bound says 0: a wrong bound is noticed, not believed.
+  template <DensityLine Line>
+  static void probeEmpty(const Line& line, double tEnter, double tExit, Rng& rng, LookupTally& tally) {
+    const float density = line.density(tEnter + (tExit - tEnter) * rng.uniformDouble());
+    ++tally.lookups;
+    if (density > 0) tally.noteViolation(density, 0);
+  }
+
+  template <std::size_t N>
+  bool survives(Channels<N>& weight, Rng& rng) const {
+    double largest = 0;
+    for (const double w : weight) largest = std::max(largest, w < 0 ? -w : w);
+    if (largest >= rouletteThreshold && largest > 0) return true;
+    if (rng.uniformDouble() * rouletteThreshold < largest) {
+      const double boost = rouletteThreshold / largest;
+      for (double& w : weight) w *= boost;
+      return true;
+    }
+    weight = filled<N>(0);
+    return false;
+  }
+};
+
+}  // namespace pbrtmedia

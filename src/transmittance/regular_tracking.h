@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include "base/rng.h"
+#include "fields/density_line.h"
+#include "transmittance/estimate.h"
+
+namespace pbrtmedia {
+
+/// Regular tracking: the optical depth piece by piece. On each piece the density is a cubic in t (trilinear
+/// grids, cell by cell), for which two-point Gauss-Legendre quadrature is exact. The ground truth of every
+/// test on grids. Empty super-voxels cost nothing.
+///
+/// Bias and variance: none, up to rounding. Cost: two look-ups per crossed piece; ends once every channel's
+/// transmittance is below the smallest double.
+struct RegularTracking {
+  static constexpr std::string_view kName = "regular";
+  /// exp(-x) is 0 in double beyond this.
+  static constexpr double kOpaque = 746;
+
+  template <PiecewiseCubicLine Line, std::size_t N>
+  Estimate<N> operator()(const Line& line, const Channels<N>& sigmaT, Rng&) const {
+    Estimate<N> estimate;
+    const double opaque = kOpaque / *std::min_element(sigmaT.begin(), sigmaT.end());
+    const double column = densityIntegral(line, opaque, estimate.tally);
+    // 0 * inf never forms: the integral of a finite density over a finite line is finite.
+    for (std::size_t c = 0; c < N; ++c) estimate.value[c] = std::exp(-sigmaT[c] * column);
+    return estimate;
+  }
+
+  /// Integral of the density over the line (unit of t); may stop early once above `enough`.
+  template <PiecewiseCubicLine Line>
+  static double densityIntegral(const Line& line, double enough, LookupTally& tally) {
+    constexpr double kGauss = 0.57735026918962576451;  // 1/sqrt(3)
+    double column = 0;
+    line.walkPieces([&](double a, double b) {
+      const double half = (b - a) / 2, middle = a + half;
+      column += half * (static_cast<double>(line.density(middle - kGauss * half)) +
+                        static_cast<double>(line.density(middle + kGauss * half)));
+      tally.lookups += 2;
+      return column <= enough;
+    });
+    return column;
+  }
+};
+
+}  // namespace pbrtmedia
