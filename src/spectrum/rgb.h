@@ -25,12 +25,12 @@ struct Rgb {
   constexpr Rgb& operator*=(Rgb o) { return *this = *this * o; }
   constexpr Rgb& operator*=(float s) { return *this = *this * s; }
   constexpr Rgb& operator/=(float s) { return *this = *this / s; }
-  friend constexpr Rgb operator+(Rgb a, Rgb b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-  friend constexpr Rgb operator-(Rgb a, Rgb b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
-  friend constexpr Rgb operator*(Rgb a, Rgb b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+  friend constexpr Rgb operator+(Rgb u, Rgb v) { return {u.r + v.r, u.g + v.g, u.b + v.b}; }
+  friend constexpr Rgb operator-(Rgb u, Rgb v) { return {u.r - v.r, u.g - v.g, u.b - v.b}; }
+  friend constexpr Rgb operator*(Rgb u, Rgb v) { return {u.r * v.r, u.g * v.g, u.b * v.b}; }
   friend constexpr Rgb operator*(Rgb a, float s) { return {a.r * s, a.g * s, a.b * s}; }
   friend constexpr Rgb operator*(float s, Rgb a) { return {a.r * s, a.g * s, a.b * s}; }
-  friend constexpr Rgb operator/(Rgb a, Rgb b) { return {a.r / b.r, a.g / b.g, a.b / b.b}; }
+  friend constexpr Rgb operator/(Rgb u, Rgb v) { return {u.r / v.r, u.g / v.g, u.b / v.b}; }
   friend constexpr Rgb operator/(Rgb a, float s) { return {a.r / s, a.g / s, a.b / s}; }
 
   constexpr bool isBlack() const { return r == 0 && g == 0 && b == 0; }
