@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/bounds.h"
@@ -16,6 +19,8 @@ namespace pbrtmedia {
 class Image {
  public:
   Image() = default;
+  /// Black; both windows are (0, 0) - (width, height). Throws std::invalid_argument for a negative size, no
+  /// channels, or a repeated channel name.
   Image(int width, int height, std::vector<std::string> channels = {"R", "G", "B"});
 
   int width() const { return width_; }
@@ -24,9 +29,12 @@ class Image {
   const std::vector<std::string>& channels() const { return channels_; }
   float& at(int x, int y, std::size_t c) { return data_[index(x, y) + c]; }
   float at(int x, int y, std::size_t c) const { return data_[index(x, y) + c]; }
-  /// R, G, B of a pixel; an image with one channel is grey, one with none of these names throws
-  /// std::logic_error.
+  std::optional<std::size_t> channelIndex(std::string_view name) const;
+  /// Whether pixels have a colour: channels R, G and B, or a grey one ("Y", or the only channel there is).
+  bool hasRgb() const { return rgb_.has_value(); }
+  /// The colour of a pixel; a grey one has three equal channels. Throws std::logic_error without `hasRgb`.
   Rgb rgb(int x, int y) const;
+  /// Sets R, G and B, or the grey channel to the average. Throws std::logic_error without `hasRgb`.
   void setRgb(int x, int y, Rgb v);
   std::vector<float>& data() { return data_; }
   const std::vector<float>& data() const { return data_; }
@@ -43,6 +51,7 @@ class Image {
   }
   int width_ = 0, height_ = 0;
   std::vector<std::string> channels_;
+  std::optional<std::array<std::size_t, 3>> rgb_;  ///< channels that hold R, G and B
   std::vector<float> data_;
 };
 
@@ -54,9 +63,10 @@ struct WriteOptions {
   ExrCompression compression = ExrCompression::Zip;
 };
 
-/// Reads .exr .png .pfm .tga, chosen by the file's first bytes (TGA by its name). PNG and TGA values are
-/// divided by 255 (or 65535), not linearised. Throws SceneError (location: the file) for anything unreadable,
-/// truncated or unreasonable; sizes in the header are checked against the data before memory is taken.
+/// Reads .exr .png .pfm .tga (codecs.h), chosen by the file's first bytes (TGA by its name). PNG and TGA
+/// values are divided by 255 (or 65535), not linearised. Throws SceneError (location: the file) for anything
+/// unreadable, truncated or unreasonable; sizes in the header are checked against the data before memory is
+/// taken.
 Image readImage(const std::filesystem::path& path);
 /// True when the extension of `path` names a format that `writeImage` can write.
 bool isWritableImageName(const std::filesystem::path& path);
