@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -60,22 +62,28 @@ class Diagnostics {
     add(lenient ? Severity::Warning : Severity::Error, at, std::move(message));
   }
 
+  /// Keeps the text of an input that cannot be read again (standard input), for excerpts.
+  void keepText(const std::string& shownName, std::string text) { kept_[shownName] = std::move(text); }
+
   bool hasErrors() const { return errors_ > 0; }
   std::size_t errorCount() const { return errors_; }
   const std::vector<Diagnostic>& all() const { return items_; }
   /// All messages, in order of report, each as "file:line:column: error: message" with the source line and a
-  /// caret under the stretch; excerpts are read from the files now. Identical repeats are shown once.
+  /// caret under the stretch; excerpts are read from the files now. Identical repeats are shown once. At most
+  /// `kMaxShown` errors and as many other messages are shown, then the numbers left out.
   std::string format() const;
+  static constexpr std::size_t kMaxShown = 50;
 
  private:
   std::vector<Diagnostic> items_;
+  std::map<std::string, std::string> kept_;  ///< shown name to text
   std::size_t errors_ = 0;
 };
 
 /// "a, b, c" of the names nearest to `found` first (edit distance), then the rest, at most `most` of them.
 std::string nearestNames(std::string_view found, std::span<const std::string_view> known,
                          std::size_t most = 8);
-/// "; did you mean \"x\"?" when one name is close enough, and "; known: …".
+/// "; did you mean \"x\"? known: …" when one name is close enough, else "; known: …"; "" without names.
 std::string suggestion(std::string_view found, std::span<const std::string_view> known);
 
 }  // namespace pbrtmedia

@@ -27,15 +27,15 @@ class FileBytes {
 
   std::string_view text() const { return {data_, size_}; }
   std::span<const std::byte> bytes() const { return {reinterpret_cast<const std::byte*>(data_), size_}; }
-  /// Tells the kernel that the first `count` bytes will not be read again, so they stop counting as memory.
+  /// Gives back the memory of the first `count` bytes. They must not be read again: what was unpacked or came
+  /// from a stream reads as zeros from now on.
   void releaseUpTo(std::size_t count) const;
 
  private:
-  FileBytes() = default;
+  FileBytes(const char* data, std::size_t size, bool mapped) : data_(data), size_(size), mapped_(mapped) {}
   const char* data_ = nullptr;
   std::size_t size_ = 0;
-  bool mapped_ = false;
-  std::string owned_;
+  bool mapped_ = false;  ///< data_ is a mapping of the file, else it comes from malloc
 };
 
 /// Writes a file under a temporary name in the same folder, flushes it to the disk and renames it over
