@@ -72,6 +72,8 @@ struct RayHit {
 struct TriangleBuffers {
   std::span<const Point3f> positions;
   std::span<const std::array<std::uint32_t, 3>> indices;
+  /// True when 4 more bytes behind the last position may be read; otherwise the positions are copied.
+  bool paddedPositions = false;
 };
 
 /// Geometry that intersects itself, in double. One primitive. Implementations are immutable and thread-safe.
@@ -84,8 +86,9 @@ class UserGeometry {
     double t;
     Point2f uv;
   };
-  /// The nearest accepted root in (tMin, tMax). `excludedT`: for each value, the geometric root nearest to it
-  /// is skipped (before clipping by zmin, phimax, ...), which is how a ray leaves the surface it starts on.
+  /// The nearest accepted root with tMin <= float(t) <= tMax. `excludedT`: for each value, the geometric root
+  /// nearest to it is skipped (before clipping by zmin, phimax, ...), which is how a ray leaves the surface
+  /// it starts on.
   virtual std::optional<Root> intersect(const Ray& ray, double tMin, double tMax,
                                         std::span<const float> excludedT) const = 0;
 };
@@ -114,9 +117,16 @@ class Accelerator {
   std::uint32_t addInstance(const Accelerator& object, const AnimatedTransform& worldFromObject);
   void build();
 
-  /// Closest hit with tMin < t < ray.tMax.
+  /// Closest hit with tMin <= t < ray.tMax (t in float) of what is not excluded. Of several hits at one t the
+  /// smallest (instance, geometry, primitive) is reported, so the answer does not depend on how the structure
+  /// was built; the others are found by asking again with tMin = t and the reported one excluded.
+  ///
+  /// A ray that starts on a triangle (excluded, t = 0) or ends on one (excluded, t >= ray.tMax) is not
+  /// stopped there by a neighbour that the rounding of its end point put in the way: near such an end, on
+  /// which side of a plane the ray is follows from the triangle it lies on. Rays with NaN or infinite origin
+  /// or direction miss.
   std::optional<RayHit> intersect(const Ray& ray, float tMin, const Exclusions& exclusions) const;
-  /// Whether there is any hit in (tMin, ray.tMax).
+  /// Whether `intersect` would report a hit (with the filters of shadow rays).
   bool occluded(const Ray& ray, float tMin, const Exclusions& exclusions) const;
   /// Bounds of everything added (over all times).
   Bounds3f bounds() const;

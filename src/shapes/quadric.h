@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "shapes/shape.h"
+
+namespace pbrtmedia {
+
+/// What sphere, cylinder, disk, cone, paraboloid and hyperboloid share: a surface given by an equation of
+/// degree two (or one), possibly clipped, open (no caps). Rays come in world space and are solved in object
+/// space, in double; t is the same in both.
+///
+/// Orientation (scene-language reference 13.1): the object-space normal dp/du x dp/dv, negated by
+/// ReverseOrientation XOR mirrored CTM, carried to world by the inverse transpose. Sampled normals agree with
+/// those of hits; PBRT-v3 leaves out the mirror there.
+///
+/// Sampling covers exactly the clipped surface, uniformly by *object-space* area; the pdf is the exact world
+/// density, so light and area are right under any CTM. (It is uniform in world space for rotations,
+/// translations and uniform scales.)
+class Quadric : public Shape, public UserGeometry {
+ public:
+  Bounds3f bounds() const final;
+  bool isClosed() const override { return false; }
+  Geometry geometry() const final { return static_cast<const UserGeometry*>(this); }
+  std::optional<Root> intersect(const Ray& ray, double tMin, double tMax,
+                                std::span<const float> excludedT) const final;
+  SurfaceInteraction interaction(const RayHit& hit, const Ray& ray) const final;
+  Point2f uvAt(const RayHit& hit) const final { return hit.uv; }
+
+  /// Exact for uniform scales; otherwise by quadrature (relative error below 1e-5) on every call.
+  double area(std::uint32_t primitive) const final;
+  ShapeSample sample(std::uint32_t primitive, Point2f u) const final;
+  ShapeSample sample(std::uint32_t primitive, Point3f reference, Point2f u) const override;
+  float pdf(std::uint32_t primitive, Point3f reference, Vector3f wi, Point3f p, Normal3f n) const override;
+
+ protected:
+  explicit Quadric(const ShapePlacement& placement);
+
+  /// First and second derivatives of the surface point by (u, v), object space.
+  struct Derivatives {
+    Vec3d dpdu, dpdv, d2pduu, d2pduv, d2pdvv;
+  };
+
+  // The surface, in object space.
+
+  /// Box around the clipped surface.
+  virtual Bounds3d objectBounds() const = 0;
+  /// Coefficients of a t² + b t + c = 0 for the line o + t d.
+  virtual std::array<double, 3> lineEquation(Vec3d o, Vec3d d) const = 0;
+  /// Moves a point that is on the surface up to rounding onto it (to double precision).
+  virtual Vec3d project(Vec3d p) const = 0;
+  /// (u, v) of a surface point, nothing when it is clipped away.
+  virtual std::optional<Point2d> parameters(Vec3d p) const = 0;
+  /// Unit, along dp/du x dp/dv where that is not zero.
+  virtual Vec3d normal(Vec3d p) const = 0;
+  /// Finite everywhere and with dp/du, dp/dv not zero (at poles a nearby tangent is taken).
+  virtual Derivatives derivatives(Vec3d p) const = 0;
+  virtual double objectArea() const = 0;
+  /// Uniform by object-space area.
+  virtual Vec3d sampleObject(Point2d u) const = 0;
+
+  const Transform& worldFromObject() const { return worldFromObject_; }
+  Vec3d objectPoint(Vec3d world) const { return objectFromWorld_.point(world); }
+  Vec3d objectVector(Vec3d world) const { return objectFromWorld_.vector(world); }
+  /// |det| of the linear part of the placement.
+  double volumeScale() const { return volumeScale_; }
+  /// World point, oriented unit normal and area density at a surface point.
+  ShapeSample sampleAt(Vec3d pObject) const;
+
+ private:
+  struct ObjectRay {
+    Vec3d o, d;
+    double shift;  ///< t of `o` on the world ray: near the shape, so that far origins lose no digits
+  };
+  ObjectRay objectRay(const Ray& ray) const;
+  /// World area per object area where the unit object normal is n.
+  double areaScale(Vec3d nObject) const;
+
+  Transform worldFromObject_, objectFromWorld_;
+  bool flips_;
+  double volumeScale_;
+};
+
+}  // namespace pbrtmedia
