@@ -42,10 +42,9 @@ class InfiniteLight final : public Light {
   Rgb power() const override;
 
  private:
-  Point2f mapPoint(Vector3f world) const;
-  /// Solid-angle density in light space of the cell that holds (u, v), whose density on the unit square is
-  /// `pdfUv`.
-  float solidAnglePdf(float pdfUv, std::size_t row) const;
+  /// Solid-angle density, in light space, of the cell that holds (u, v).
+  float solidAnglePdf(Point2f uv) const;
+  std::size_t rowOf(float v) const;
   /// d(solid angle in light space) / d(solid angle in world space) at a unit world direction.
   float jacobian(Vector3f world) const;
 

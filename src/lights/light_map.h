@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include <memory>
-
 #include "base/vec.h"
 #include "image/image.h"
+#include "image/mip_map.h"
 #include "spectrum/rgb.h"
 
 namespace pbrtmedia {
@@ -15,27 +14,22 @@ namespace pbrtmedia {
 class LightMap {
  public:
   /// Throws std::invalid_argument for an empty picture or one with a texel that is not finite (named in the
-  /// message).
+  /// message), and its base std::logic_error for one that has no colours.
   explicit LightMap(const Image& image);
-  ~LightMap();
-  LightMap(LightMap&&) noexcept;
-  LightMap& operator=(LightMap&&) noexcept;
 
-  int width() const { return width_; }    ///< after resampling
-  int height() const { return height_; }  ///< after resampling
-  Rgb texel(int x, int y) const;          ///< 0 <= x < width, 0 <= y < height
-  Rgb lookup(Point2f uv) const;
+  int width() const { return pyramid_.width(); }    ///< after resampling
+  int height() const { return pyramid_.height(); }  ///< after resampling
+  /// 0 <= x < width, 0 <= y < height
+  Rgb texel(int x, int y) const { return pyramid_.texel(0, x, y); }
+  Rgb lookup(Point2f uv) const { return pyramid_.bilinear(uv); }
   /// The coarsest pyramid texel: the mean.
-  Rgb mean() const { return mean_; }
+  Rgb mean() const { return pyramid_.coarsest(); }
   /// width / height of the picture before resampling.
   float aspect() const { return aspect_; }
 
  private:
-  struct Pyramid;
-  std::unique_ptr<const Pyramid> pyramid_;
-  int width_ = 0, height_ = 0;
-  float aspect_ = 1;
-  Rgb mean_;
+  MipMap<Rgb> pyramid_;
+  float aspect_;
 };
 
 }  // namespace pbrtmedia
