@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <variant>
 
 #include "base/vec.h"
 #include "materials/bsdf_flags.h"
@@ -46,11 +45,11 @@ class Bsdf {
   /// Lobes and frame, for the mix material.
   std::size_t lobeCount() const { return count_; }
   const Lobe& lobe(std::size_t i) const { return lobes_[i]; }
-  /// Multiplies every lobe's weight from index `first` on.
-  void scaleFrom(std::size_t first, Rgb weight);
+  /// Multiplies every lobe's weight; lobes that become black are dropped.
+  void scale(Rgb weight);
 
  private:
-  std::array<Lobe, kMaxLobes> lobes_{};
+  std::array<Lobe, kMaxLobes> lobes_;  // only the first count_ are ever read
   std::size_t count_ = 0;
   Frame frame_;
   Normal3f ng_{0, 0, 1};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <cstddef>
+
 #include "materials/bsdf.h"
 #include "shapes/surface_interaction.h"
 
@@ -14,6 +16,8 @@ class Material {
   /// lobe that picks reflection or transmission (path, volpath); false: two lobes (whitted, directlighting).
   /// Camera paths: transmitted radiance is scaled by (eta_i/eta_t)².
   virtual Bsdf bsdf(SurfaceInteraction& si, bool mergeSpecular) const = 0;
+  /// No point of the surface has more lobes; mixes past Bsdf::kMaxLobes are refused when they are built.
+  virtual std::size_t maxLobes() const = 0;
 };
 
 }  // namespace pbrtmedia

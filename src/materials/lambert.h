@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include "base/warp.h"
+#include "materials/local_frame.h"
+
+namespace pbrtmedia {
+
+/// Reflects the same radiance everywhere: f = 1/π.
+struct LambertReflection {
+  static constexpr BsdfFlags kFlags = BsdfFlags::Reflection | BsdfFlags::Diffuse;
+
+  Rgb f(Vector3f, Vector3f) const { return Rgb(kInvPi); }
+  float pdf(Vector3f wo, Vector3f wi) const { return isSameHemisphere(wo, wi) ? std::abs(wi.z) * kInvPi : 0; }
+  LobeSample sample(Vector3f wo, Point2f u) const {
+    Vector3f wi = sampleCosineHemisphere(u);
+    if (wo.z < 0) wi.z = -wi.z;
+    return {f(wo, wi), wi, pdf(wo, wi), kFlags};
+  }
+};
+
+/// Transmits the same radiance everywhere on the other side: f = 1/π.
+struct LambertTransmission {
+  static constexpr BsdfFlags kFlags = BsdfFlags::Transmission | BsdfFlags::Diffuse;
+
+  Rgb f(Vector3f, Vector3f) const { return Rgb(kInvPi); }
+  float pdf(Vector3f wo, Vector3f wi) const { return isSameHemisphere(wo, wi) ? 0 : std::abs(wi.z) * kInvPi; }
+  LobeSample sample(Vector3f wo, Point2f u) const {
+    Vector3f wi = sampleCosineHemisphere(u);
+    if (wo.z > 0) wi.z = -wi.z;
+    return {f(wo, wi), wi, pdf(wo, wi), kFlags};
+  }
+};
+
+}  // namespace pbrtmedia

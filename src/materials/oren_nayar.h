@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include "base/warp.h"
+#include "materials/local_frame.h"
+
+namespace pbrtmedia {
+
+/// Rough diffuse reflection of V-shaped Lambertian grooves: Oren & Nayar 1994, doi:10.1145/192161.192213, the
+/// qualitative model (their Eq. 30) with 0.33, as PBRT-v3 has it. σ = 0 is Lambert.
+class OrenNayar {
+ public:
+  static constexpr BsdfFlags kFlags = BsdfFlags::Reflection | BsdfFlags::Diffuse;
+
+  /// `sigmaDegrees`: standard deviation of the groove slope angle, [0, 90] degrees.
+  explicit OrenNayar(float sigmaDegrees);
+
+  Rgb f(Vector3f wo, Vector3f wi) const;
+  float pdf(Vector3f wo, Vector3f wi) const { return isSameHemisphere(wo, wi) ? std::abs(wi.z) * kInvPi : 0; }
+  LobeSample sample(Vector3f wo, Point2f u) const {
+    Vector3f wi = sampleCosineHemisphere(u);
+    if (wo.z < 0) wi.z = -wi.z;
+    return {f(wo, wi), wi, pdf(wo, wi), kFlags};
+  }
+
+ private:
+  float a_, b_;
+};
+
+}  // namespace pbrtmedia
