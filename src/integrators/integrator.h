@@ -11,11 +11,14 @@
 
 namespace pbrtmedia {
 
+struct MismatchLog;
+
 /// What one camera sample carries through the renderer. Lives on the stack of one thread.
 struct SampleContext {
   Sampler& sampler;  ///< dimensions that profit from good distribution
   Rng& rng;          ///< everything of unbounded dimension (tracking, roulette)
   RenderCounters& counters;
+  MismatchLog* mismatches = nullptr;  ///< where inconsistent boundaries are noted; null: nowhere
 };
 
 /// Light transport: estimates the radiance that arrives along a ray. Immutable after preparation,

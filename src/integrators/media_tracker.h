@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "integrators/medium_state.h"
+
+namespace pbrtmedia {
+
+/// A crossing where a boundary contradicts the ray's current medium; the first few are shown to the user.
+struct MediumMismatch {
+  Point2i pixel;
+  std::int64_t sample = 0;
+  Point3f p;  ///< world
+  std::string believed, named;
+  /// "pixel 3 4, sample 0: a boundary at (...) is entered from \"fog\", but the ray is in \"smoke\"".
+  std::string toString() const;
+};
+
+/// Where the first mismatches of one pixel sample or of a tile are noted down. Not thread-safe.
+struct MismatchLog {
+  Point2i pixel;
+  std::int64_t sample = 0;
+  std::size_t capacity = 4;
+  std::vector<MediumMismatch> entries;
+};
+
+/// Outcome of a free flight through all media of a state.
+struct MediumFlight {
+  bool collided = false;
+  double t = 0;
+  Rgb weight{1.0f};                      ///< as in FreeFlight
+  const PhaseFunction* phase = nullptr;  ///< of the medium that collided
+  const Placement* placement = nullptr;  ///< of the medium that collided
+};
+
+/// A plane that a path vertex in a medium must stay on one side of: the boundary at either end of its
+/// segment.
+struct BoundaryPlane {
+  bool isValid = false;
+  Point3f p;
+  Normal3f n;  ///< unit, toward the side of the segment
+};
+
+/// Media topology of one scene: how crossing boundaries changes the media a path is in. Immutable,
+/// thread-safe.
+class MediaTracker {
+ public:
+  /// `cameraMedium`: the explicit start medium, if the scene gives one; it may then reach infinity.
+  explicit MediaTracker(const Scene& scene, const Medium* cameraMedium = nullptr);
+
+  /// Changes `state` for going through the surface along `d`. `normal`: geometric, world space. A boundary
+  /// whose near side contradicts the state is counted and noted in `log` (may be null); the boundary wins.
+  void cross(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si, Vector3f d,
+             RenderCounters& counters, MismatchLog* log) const;
+  /// State of a ray that starts on the surface along `wi`, when a path in `state` came in from si.wo.
+  void leaveSurface(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si, Vector3f wi,
+                    RenderCounters& counters, MismatchLog* log) const;
+  /// To be called when a ray has no further hit: media that closed boundaries confine cannot be there.
+  /// Removes them and counts a boundary repair.
+  void escape(MediumState& state, RenderCounters& counters) const;
+
+  /// Unbiased estimate of the transmittance of all active media over tMin < t < tMax of the world ray; their
+  /// product. Stops as soon as it is black.
+  static Rgb transmittance(const MediumState& state, const Ray& ray, double tMin, double tMax, Rng& rng,
+                           RenderCounters& counters);
+  /// The nearest of independent free flights through the active media, weighted by what the other media let
+  /// through up to there.
+  static MediumFlight sampleFreeFlight(const MediumState& state, const Ray& ray, double tMin, double tMax,
+                                       Rng& rng, RenderCounters& counters);
+  /// The point at `t`, in single precision. When rounding may have put it beyond the boundary at an end of
+  /// its segment it is moved back to the right side, by some float spacings; being beyond counts as a repair.
+  static Point3f scatterPoint(const Ray& ray, double t, const BoundaryPlane& start, const BoundaryPlane& end,
+                              RenderCounters& counters);
+
+  /// Whether the medium can be only within closed boundaries.
+  bool isConfined(const Medium* medium) const { return confined_.count(medium) > 0; }
+
+ private:
+  std::unordered_set<const Medium*> confined_;
+};
+
+}  // namespace pbrtmedia

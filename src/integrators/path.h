@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "integrators/integrator.h"
+#include "integrators/light_selector.h"
+#include "integrators/scene.h"
+
+namespace pbrtmedia {
+
+/// Parameters that `path` and `volpath` share (scene-language reference 11.1, 11.2).
+struct PathParams {
+  int maxDepth = 5;                             ///< scattering vertices of a path; 0: visible emission only
+  float rrThreshold = 1;                        ///< roulette is played on throughputs below it; 0: never
+  std::string lightSampleStrategy = "spatial";  ///< uniform, power or spatial; for whoever makes the selector
+};
+
+/// Integrator `path`: unidirectional path tracing over surfaces, next-event estimation and multiple
+/// importance sampling. Ignores media; surfaces without material neither scatter nor block. Unbiased.
+class PathIntegrator final : public Integrator {
+ public:
+  /// `selector` may be null when the scene has no lights.
+  PathIntegrator(const Scene& scene, const PathParams& params, std::unique_ptr<const LightSelector> selector);
+  ~PathIntegrator() override;
+  std::string_view typeName() const override { return "path"; }
+  Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
+
+ private:
+  const Scene& scene_;
+  PathParams params_;
+  std::unique_ptr<const LightSelector> selector_;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <vector>
+
+#include "lights/light.h"
+#include "materials/material.h"
+#include "media/medium.h"
+#include "shapes/shape.h"
+#include "textures/texture.h"
+
+namespace pbrtmedia {
+
+/// The media on the two sides of a surface; null: vacuum. Inside is the side opposite the geometric normal.
+struct MediumInterface {
+  const Medium* inside = nullptr;
+  const Medium* outside = nullptr;
+  /// Such a surface changes nothing: the ray keeps whatever medium it is in (scene-language reference 17.4).
+  bool same() const { return inside == outside; }
+};
+
+/// One shape as the scene uses it. Everything is borrowed: SceneBuilder::own keeps it alive.
+struct Primitive {
+  const Shape* shape = nullptr;        ///< required
+  const Material* material = nullptr;  ///< null: no material, the surface is passed straight through
+  MediumInterface media;
+  const FloatTexture* alpha = nullptr;        ///< hits where it is exactly 0 do not exist; null: opaque
+  const FloatTexture* shadowAlpha = nullptr;  ///< the same, for yes/no occlusion rays only
+  /// One light for each of the shape's primitives, or none at all: the surface does not emit.
+  std::vector<AreaLight*> areaLights;
+
+  /// Passing through it can be ignored altogether.
+  bool isInvisible() const { return !material && media.same() && areaLights.empty(); }
+};
+
+}  // namespace pbrtmedia

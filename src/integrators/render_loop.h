@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "cameras/camera.h"
+#include "film/film.h"
+#include "integrators/integrator.h"
+#include "integrators/media_tracker.h"
+
+namespace pbrtmedia {
+
+/// How far a render is. Samples are camera samples over all pixels.
+struct RenderProgress {
+  std::uint64_t samplesDone = 0, samplesTotal = 0;
+  double seconds = 0;
+};
+
+/// What the render loop needs to know beyond the scene. The number of threads is the caller's ThreadLimit.
+struct RenderOptions {
+  std::uint64_t seed = 0;  ///< of the Rng of every sample; the sampler has its own copy
+  /// Samples per pixel instead of the sampler's own count.
+  std::optional<std::int64_t> samplesPerPixel;
+  std::int64_t firstSample = 0;         ///< sample indices below it are taken as done elsewhere
+  std::optional<Bounds2i> pixelBounds;  ///< further limits where samples are taken
+  int tileSize = 16;                    ///< pixels; has no effect on the image
+  std::optional<int> samplesPerPass;    ///< has no effect on the image; default: by memory
+  double timeLimit = std::numeric_limits<double>::infinity();  ///< seconds of rendering
+  const std::atomic<bool>* stop = nullptr;                     ///< set to true: stop soon
+  /// Called on the calling thread after each pass, when the film holds everything taken so far. False: stop.
+  std::function<bool(const RenderProgress&)> afterPass;
+  /// Called about ten times a second, from any one thread at a time.
+  std::function<void(const RenderProgress&)> progress;
+  std::size_t maxRecords = 16;  ///< dropped samples and mismatches that are kept
+};
+
+/// A sample that was kept off the film: enough to replay it.
+struct DroppedSample {
+  Point2i pixel;
+  std::int64_t sample = 0;
+  DropCause cause = DropCause::NotANumber;
+  bool operator==(const DroppedSample&) const = default;
+};
+
+struct RenderResult {
+  std::uint64_t samplesTaken = 0, samplesTotal = 0;
+  std::int64_t completedSamplesPerPixel = 0;  ///< sample indices below it are taken in every pixel
+  RenderCounters counters;
+  double seconds = 0;
+  bool interrupted = false;  ///< stopped before the last sample
+  /// The first in order of pixel (row by row), then sample; both at most RenderOptions::maxRecords.
+  std::vector<DroppedSample> dropped;
+  std::vector<MediumMismatch> mismatches;
+};
+
+/// Takes the samples of an image and accumulates them on the film, in passes over the film. Every sample is a
+/// pure function of (seed, pixel, sample index): image, counters and records are the same for any number of
+/// threads, tile size and grouping into passes. Stopped early (time, flag, callback) it leaves the film with
+/// exactly the samples that were taken.
+RenderResult renderFilm(const Camera& camera, const Sampler& sampler, const Integrator& integrator,
+                        Film& film, const RenderOptions& options);
+
+/// One sample again, as the loop takes it: for replays. Radiance before the film admits it.
+Rgb renderSample(const Camera& camera, Sampler& sampler, const Integrator& integrator, Point2i pixel,
+                 std::int64_t sample, std::int64_t samplesPerPixel, std::uint64_t seed,
+                 RenderCounters& counters, MismatchLog* mismatches = nullptr, Point2f* film = nullptr);
+
+}  // namespace pbrtmedia

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "accelerators/accelerator.h"
+#include "base/transform.h"
+#include "integrators/primitive.h"
+
+namespace pbrtmedia {
+
+/// An object placed in the world. A medium seen through a placement is evaluated in the object's space.
+class Placement {
+ public:
+  Placement(std::uint32_t object, const AnimatedTransform& worldFromObject);
+  std::uint32_t object() const { return object_; }
+  Transform worldFromObject(float time) const;
+  /// The same line in the object's space; t keeps its meaning as a world length.
+  Segment toObject(const Segment& segmentWorld, float time) const;
+  Ray toObject(const Ray& rayWorld) const;
+
+ private:
+  std::uint32_t object_;
+  AnimatedTransform worldFromObject_;
+  Transform objectFromWorld_;  ///< of the start time
+  Affine3f objectFromWorldAffine_;
+};
+
+/// A hit with the things it refers to. The surface point itself is computed on demand (Scene::surface).
+struct SceneHit {
+  static constexpr std::uint32_t kNoLight = 0xffffffffu;
+  RayHit hit;
+  const Primitive* primitive = nullptr;
+  const Placement* placement = nullptr;  ///< null: placed directly
+  /// Index into Scene::lights() of the light on the primitive that was hit; kNoLight: none, or one that is
+  /// visible only (lights inside objects, scene-language reference 5.4).
+  std::uint32_t light = kNoLight;
+
+  float t() const { return hit.t; }
+  bool isEmitter() const { return !primitive->areaLights.empty(); }
+  /// Only when isEmitter().
+  const AreaLight& areaLight() const { return *primitive->areaLights[hit.id.primitive]; }
+};
+
+/// Everything that is rendered: owns it and answers ray queries. Made by SceneBuilder; immutable,
+/// thread-safe.
+class Scene {
+ public:
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+  ~Scene();
+
+  /// Closest hit with tMin < t < ray.tMax; counted as a ray.
+  std::optional<SceneHit> closest(const Ray& ray, float tMin, const Exclusions& exclusions,
+                                  RenderCounters& counters) const;
+  /// Whether a surface with a material lies in (tMin, ray.tMax); shadowalpha applies. Surfaces without
+  /// material do not block. Media are not considered. Counted as a shadow ray.
+  bool occluded(const Ray& ray, float tMin, const Exclusions& exclusions, RenderCounters& counters) const;
+  /// World-space surface point of a hit of `ray`, without footprint.
+  SurfaceInteraction surface(const SceneHit& hit, const Ray& ray) const;
+
+  /// The lights that illuminate, in order of addition; light selectors speak of these numbers.
+  const std::vector<const Light*>& lights() const { return lights_; }
+  /// Those of lights() that answer rays leaving the scene: index into lights().
+  const std::vector<std::uint32_t>& infiniteLights() const { return infiniteLights_; }
+  /// Bounds of all surfaces (over all times). Empty for a scene without surfaces.
+  const Bounds3f& bounds() const { return bounds_; }
+  /// Some primitive names a medium.
+  bool hasMediumBoundaries() const { return hasMediumBoundaries_; }
+  bool hasShadowAlpha() const { return hasShadowAlpha_; }
+  /// Something can be seen that emits: an area light (also in an object) or an infinite light.
+  bool hasVisibleEmitters() const { return hasVisibleEmitters_; }
+  /// Primitives placed directly, then those of every object, for inspection.
+  std::vector<const Primitive*> primitives() const;
+  /// Bytes the ray-tracing structures hold.
+  std::size_t acceleratorBytes() const;
+
+ private:
+  friend class SceneBuilder;
+  struct Parts;
+  explicit Scene(std::unique_ptr<Parts> parts);
+  std::optional<SceneHit> resolve(const RayHit& hit) const;
+
+  std::unique_ptr<Parts> parts_;
+  std::vector<const Light*> lights_;
+  std::vector<std::uint32_t> infiniteLights_;
+  Bounds3f bounds_;
+  bool hasMediumBoundaries_ = false, hasShadowAlpha_ = false, hasVisibleEmitters_ = false;
+};
+
+}  // namespace pbrtmedia

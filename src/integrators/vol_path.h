@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <memory>
+
+#include "integrators/camera_medium.h"
+#include "integrators/integrator.h"
+#include "integrators/light_selector.h"
+#include "integrators/path.h"
+
+namespace pbrtmedia {
+
+/// Integrator `volpath`: path tracing over surfaces and media. Scattering in a medium counts as a bounce,
+/// crossing a boundary without material does not. Unbiased.
+class VolPathIntegrator final : public Integrator {
+ public:
+  /// `selector` may be null when the scene has no lights.
+  VolPathIntegrator(const Scene& scene, const PathParams& params,
+                    std::unique_ptr<const LightSelector> selector, CameraMedium cameraMedium);
+  ~VolPathIntegrator() override;
+  std::string_view typeName() const override { return "volpath"; }
+  Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
+  const CameraMedium& cameraMedium() const { return cameraMedium_; }
+
+ private:
+  const Scene& scene_;
+  PathParams params_;
+  std::unique_ptr<const LightSelector> selector_;
+  CameraMedium cameraMedium_;
+  MediaTracker tracker_;
+};
+
+}  // namespace pbrtmedia
