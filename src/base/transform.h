@@ -68,8 +68,8 @@ class Transform {
   Bounds3f bounds(const Bounds3f& b) const;
 
  private:
+  bool singular_ = false;  // before inv_, whose initialiser sets it
   Matrix4 m_, inv_;
-  bool singular_ = false;
 };
 
 /// Single-precision affine map for hot loops: 12 floats, no inverse.
