@@ -15,16 +15,17 @@ struct AnyIntervalVisitor {
 };
 
 /// A density along one segment with its bounds: all that an estimator or a sampler sees. The renderer, the
-/// benchmarks and the one-dimensional tests each bring their own.
+/// benchmarks and the one-dimensional tests each bring their own. Points on it are given by s, 0 <= s <=
+/// length, in the unit of the segment's t.
 ///
-/// `density(t)` is the unitless density >= 0 at a parameter inside the segment. `walk(visit)` calls
-/// visit(tEnter, tExit, bound) for consecutive intervals in order of t, tEnter < tExit; the first begins
-/// where the line enters the field, each begins where the one before ends, and neighbouring empty ones (upper
-/// = 0) may come as one. The walk stops when visit answers false. `kProvenBounds` tells that the bounds
-/// follow from the data; otherwise a zero bound is worth a probe.
+/// `density(s)` is the unitless density >= 0 at s. `walk(visit)` calls visit(sEnter, sExit, bound) for
+/// consecutive intervals, sEnter < sExit; the first begins at 0, each begins where the one before ends, the
+/// last ends at the length, and neighbouring empty ones (upper = 0) may come as one. The walk stops when
+/// visit answers false. `kProvenBounds` tells that the bounds follow from the data; otherwise a zero bound is
+/// worth a probe.
 template <class L>
-concept DensityLine = requires(const L& line, double t, AnyIntervalVisitor visit) {
-  { line.density(t) } -> std::same_as<float>;
+concept DensityLine = requires(const L& line, double s, AnyIntervalVisitor visit) {
+  { line.density(s) } -> std::same_as<float>;
   line.walk(visit);
   { L::kProvenBounds } -> std::convertible_to<bool>;
 };

@@ -65,9 +65,10 @@ class GridField {
   const AffineMap& localFromWorld() const { return localFromWorld_; }
   const Transform& worldFromLocal() const { return worldFromLocal_; }
   Bounds3d localBox() const;
-  /// Bounds with cells of 2^power samples per axis, 0 <= power <= 8, larger ones for an axis-crowded grid.
+  /// Bounds with cells of 2^power samples per axis, 0 <= power <= kMaxSuperVoxelPower; throws SceneError
+  /// beyond.
   SuperVoxels superVoxels(int power = kDefaultSuperVoxelPower) const;
-  static constexpr int kDefaultSuperVoxelPower = 2;
+  static constexpr int kDefaultSuperVoxelPower = 2, kMaxSuperVoxelPower = 10;
   /// Cuts the line (local units) at the lattice planes: between two, the density is a cubic in t.
   template <class Visit>
   void walkPieces(Vec3d o, Vec3d d, double tMin, double tMax, Visit&& visit) const {

@@ -17,29 +17,20 @@ namespace pbrtmedia {
 /// `cellSize` local units. Immutable; walking is thread-safe and makes no virtual call.
 class SuperVoxels {
  public:
-  /// Statistics of one cell as its field computes them.
-  struct Cell {
-    SuperVoxel bound;
-    float mean = 0;  ///< of the density over the cell
-  };
-
-  /// `cellOf(i, j, k)` is called once per cell, in parallel, and must bound the density over the closed cell.
-  /// `box`: where the field lives, inside the lattice. `withMeans`: keep the means too, for warped marching.
+  /// `boundOf(i, j, k)` is called once per cell, in parallel, and must bound the density over the closed
+  /// cell. `box`: where the field lives, inside the lattice (local units).
   SuperVoxels(const LatticeShape& shape, double cellSize, const Bounds3d& box,
-              const std::function<Cell(std::int64_t, std::int64_t, std::int64_t)>& cellOf,
-              bool withMeans = false);
+              const std::function<SuperVoxel(std::int64_t, std::int64_t, std::int64_t)>& boundOf);
 
   const LatticeShape& shape() const { return shape_; }
   double cellSize() const { return cellSize_; }
   const SuperVoxel& at(std::size_t cell) const { return cells_[cell]; }
-  bool hasMeans() const { return !means_.empty(); }
-  float mean(std::size_t cell) const { return means_[cell]; }
   /// Box around the cells that are not empty, cut to the field's box, in local units. Empty when all are.
   const Bounds3d& occupied() const { return occupied_; }
   /// Largest bound of all cells.
   float maximum() const { return maximum_; }
   std::size_t emptyCells() const { return emptyCells_; }
-  std::size_t bytes() const { return cells_.size() * sizeof(SuperVoxel) + means_.size() * sizeof(float); }
+  std::size_t bytes() const { return cells_.size() * sizeof(SuperVoxel); }
 
   /// Calls visit(tEnter, tExit, bound) for the intervals of the line o + t d (local units), tMin <= t <=
   /// tMax, in order and without gaps, until visit answers false. Neighbouring empty cells come as one
@@ -70,7 +61,6 @@ class SuperVoxels {
   float maximum_ = 0;
   std::size_t emptyCells_ = 0;
   std::vector<SuperVoxel> cells_;
-  std::vector<float> means_;
 };
 
 }  // namespace pbrtmedia

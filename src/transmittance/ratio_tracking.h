@@ -7,6 +7,7 @@
 #include "base/rng.h"
 #include "fields/density_line.h"
 #include "transmittance/estimate.h"
+#include "transmittance/probe.h"
 
 namespace pbrtmedia {
 
@@ -15,8 +16,9 @@ namespace pbrtmedia {
 /// Novák, Selle & Jarosz 2014, doi:10.1145/2661229.2661292; here with piecewise constant majorants, one
 /// weight per channel, and a roulette that ends walks of little weight.
 ///
-/// Bias: none, whatever the bounds. Range: [0, 1] while bounds hold; any sign and more variance beyond. Cost:
-/// the optical depth of the majorant at most; empty cells cost no look-up, and vacuum is exactly 1.
+/// Bias: none, wherever the bounds are positive. Range: [0, 1] while bounds hold; any sign and more variance
+/// beyond. Cost: the optical depth of the majorant at most; empty cells cost no look-up, and vacuum is
+/// exactly 1.
 struct RatioTracking {
   static constexpr std::string_view kName = "ratio";
 
@@ -34,26 +36,26 @@ struct RatioTracking {
     Channels<N>& weight = estimate.value;
     LookupTally& tally = estimate.tally;
     double depth = rng.exponential();  // optical depth of the majorant to the next tentative collision
-    line.walk([&](double tEnter, double tExit, const SuperVoxel& bound) {
+    line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
       if (!(bound.upper > 0)) {
-        if constexpr (!Line::kProvenBounds) probeEmpty(line, tEnter, tExit, rng, tally);
+        if constexpr (!Line::kProvenBounds) probeEmpty(line, sEnter, sExit, rng, tally);
         return true;
       }
       const double majorant = sigmaMax * static_cast<double>(bound.upper), inverse = 1 / majorant;
       const double inverseUpper = 1 / static_cast<double>(bound.upper);
-      for (double t = tEnter;;) {
-        const double depthToExit = (tExit - t) * majorant;
+      for (double s = sEnter;;) {
+        const double depthToExit = (sExit - s) * majorant;
         if (depth >= depthToExit) {
           depth -= depthToExit;
           return true;
         }
-        t += depth * inverse;
-        const float density = line.density(t);
+        s += depth * inverse;
+        const float density = line.density(s);
         ++tally.lookups;
+        ++tally.nullCollisions;
         if (density > bound.upper) tally.noteViolation(density, bound.upper);
         const double ratio = static_cast<double>(density) * inverseUpper;
         for (std::size_t c = 0; c < N; ++c) weight[c] *= 1 - share[c] * ratio;
-        ++tally.nullCollisions;
         if (!survives(weight, rng)) return false;
         depth = rng.exponential();
       }
@@ -62,14 +64,6 @@ struct RatioTracking {
   }
 
  private:
-  /// One look at a random point of a stretch whose bound says 0: a wrong bound is noticed, not believed.
-  template <DensityLine Line>
-  static void probeEmpty(const Line& line, double tEnter, double tExit, Rng& rng, LookupTally& tally) {
-    const float density = line.density(tEnter + (tExit - tEnter) * rng.uniformDouble());
-    ++tally.lookups;
-    if (density > 0) tally.noteViolation(density, 0);
-  }
-
   template <std::size_t N>
   bool survives(Channels<N>& weight, Rng& rng) const {
     double largest = 0;
