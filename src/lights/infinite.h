@@ -33,6 +33,7 @@ class InfiniteLight final : public Light {
   std::string_view typeName() const override { return "infinite"; }
   bool isDelta() const override { return false; }
   bool isInfinite() const override { return true; }
+  bool isUniformInfinite() const override { return !map_; }
   void preprocess(const Bounds3f& sceneBounds) override;
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f reference, Vector3f wi, const SurfaceInteraction* hit) const override;

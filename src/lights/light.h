@@ -32,6 +32,8 @@ class Light {
   virtual bool isDelta() const = 0;
   /// Answers rays that leave the scene.
   virtual bool isInfinite() const { return false; }
+  /// The same radiance from every direction, so that sampling a BSDF or phase function finds it best.
+  virtual bool isUniformInfinite() const { return false; }
   /// "samples": how many of this light's samples `directlighting` takes.
   int sampleCount() const { return sampleCount_; }
   /// Called once with the scene's bounds before rendering.
