@@ -36,6 +36,8 @@ class TrowbridgeReitz {
   Vector3f sampleVisible(Vector3f wo, Point2f u) const;
   /// Solid-angle density of `sampleVisible`: D(h) G1(wo) |wo·h| / |wo.z|.
   float pdfVisible(Vector3f wo, Vector3f h) const;
+  /// The same for wi, the mirror image of wo about h: pdfVisible / (4 |wo·h|), without the division.
+  float pdfReflected(Vector3f wo, Vector3f h) const;
 
  private:
   float alphaX_ = kMinAlpha, alphaY_ = kMinAlpha;

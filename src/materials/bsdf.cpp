@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "materials/bsdf.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
+
+namespace pbrtmedia {
+
+namespace {
+
+/// x along shading dp/du made orthogonal to the shading normal; any x where dp/du says nothing.
+Frame shadingFrame(const SurfaceInteraction& si) {
+  const Normal3f n = si.shading.n;
+  const Vector3f along = si.shading.dpdu - dot(n, si.shading.dpdu) * n;
+  const float l2 = lengthSquared(along);
+  if (!(l2 > 0) || !std::isfinite(l2)) return Frame::fromZ(n);
+  const Vector3f s = along / std::sqrt(l2);
+  return {s, cross(n, s), n};
+}
+
+constexpr BsdfFlags sideOf(bool isReflection) {
+  return isReflection ? BsdfFlags::Reflection : BsdfFlags::Transmission;
+}
+
+}  // namespace
+
+Bsdf::Bsdf(const SurfaceInteraction& si, float eta) : frame_(shadingFrame(si)), ng_(si.n), eta_(eta) {}
+
+void Bsdf::add(const Lobe& lobe) {
+  CHECK_LT(count_, kMaxLobes) << "too many lobes at one surface point";
+  lobes_[count_++] = lobe;
+}
+
+std::size_t Bsdf::count(BsdfFlags allowed) const {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < count_; ++i) n += matches(lobes_[i].flags(), allowed) ? 1 : 0;
+  return n;
+}
+
+Rgb Bsdf::f(Vector3f woWorld, Vector3f wiWorld, BsdfFlags allowed) const {
+  const Vector3f wo = frame_.toLocal(woWorld), wi = frame_.toLocal(wiWorld);
+  if (wo.z == 0) return {};
+  const BsdfFlags side = sideOf(dot(wiWorld, ng_) * dot(woWorld, ng_) > 0);
+  Rgb sum;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const BsdfFlags flags = lobes_[i].flags();
+    if (matches(flags, allowed) && any(flags & side)) sum += lobes_[i].f(wo, wi);
+  }
+  return sum;
+}
+
+float Bsdf::pdf(Vector3f woWorld, Vector3f wiWorld, BsdfFlags allowed) const {
+  const Vector3f wo = frame_.toLocal(woWorld), wi = frame_.toLocal(wiWorld);
+  if (wo.z == 0) return 0;
+  float sum = 0;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (!matches(lobes_[i].flags(), allowed)) continue;
+    sum += lobes_[i].pdf(wo, wi);
+    ++n;
+  }
+  return n > 0 ? sum / static_cast<float>(n) : 0;
+}
+
+BsdfSample Bsdf::sample(Vector3f woWorld, Point2f u, BsdfFlags allowed) const {
+  const std::size_t matching = count(allowed);
+  const Vector3f wo = frame_.toLocal(woWorld);
+  if (matching == 0 || wo.z == 0) return {};
+
+  const float stretched = u.x * static_cast<float>(matching);
+  const std::size_t choice = std::min(static_cast<std::size_t>(stretched), matching - 1);
+  const Point2f reused{std::min(stretched - static_cast<float>(choice), kOneMinusEpsilon), u.y};
+  std::size_t picked = 0;
+  for (std::size_t skip = choice;; ++picked) {
+    if (matches(lobes_[picked].flags(), allowed) && skip-- == 0) break;
+  }
+
+  const LobeSample s = lobes_[picked].sample(wo, reused);
+  if (!(s.pdf > 0)) return {};
+  BsdfSample result{s.f, frame_.toWorld(s.wi), s.pdf, s.flags};
+  if (!any(s.flags & BsdfFlags::Specular)) {
+    const BsdfFlags side = sideOf(dot(result.wi, ng_) * dot(woWorld, ng_) > 0);
+    result.f = {};
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Lobe& lobe = lobes_[i];
+      if (!matches(lobe.flags(), allowed)) continue;
+      if (i != picked) result.pdf += lobe.pdf(wo, s.wi);
+      if (any(lobe.flags() & side)) result.f += i == picked ? s.f : lobe.f(wo, s.wi);
+    }
+  }
+  result.pdf /= static_cast<float>(matching);
+  return result;
+}
+
+void Bsdf::scale(Rgb weight) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    Lobe lobe = lobes_[i];
+    lobe.scale(weight);
+    if (!lobe.weight().isBlack()) lobes_[kept++] = lobe;
+  }
+  count_ = kept;
+}
+
+}  // namespace pbrtmedia

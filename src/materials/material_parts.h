@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <string_view>
+
+#include "materials/microfacet.h"
+#include "textures/texture.h"
+
+// What several materials do with their textures.
+
+namespace pbrtmedia {
+
+/// Throws std::invalid_argument naming material and parameter when `texture` is null.
+void requireTexture(const void* texture, std::string_view material, std::string_view parameter);
+
+/// True for a constant that is black after clamping: its lobe is never made.
+bool isAlwaysBlack(const RgbTexture& texture);
+
+/// The value clamped at 0 but not at 1.
+inline Rgb reflectanceAt(const RgbTexture& texture, const SurfaceInteraction& si) {
+  return texture.evaluate(si).nonNegative();
+}
+
+inline TrowbridgeReitz distributionAt(float uRoughness, float vRoughness, bool remap) {
+  if (!remap) return {uRoughness, vRoughness};
+  const float alphaU = TrowbridgeReitz::alphaFromRoughness(uRoughness);
+  return {alphaU, vRoughness == uRoughness ? alphaU : TrowbridgeReitz::alphaFromRoughness(vRoughness)};
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "materials/specular.h"
+
+#include <cmath>
+
+#include "base/math.h"
+
+namespace pbrtmedia {
+
+namespace {
+
+struct Refracted {
+  Vector3f wi;
+  float radianceScale;  ///< (eta_i/eta_t)²: how radiance shrinks on its way to wo
+};
+
+std::optional<Refracted> refractAtSurface(Vector3f wo, float etaA, float etaB) {
+  const bool fromFront = wo.z > 0;
+  const float eta = fromFront ? etaA / etaB : etaB / etaA;
+  const std::optional<Vector3f> wi = refract(wo, {0, 0, fromFront ? 1.0f : -1.0f}, eta);
+  if (!wi || wi->z == 0) return std::nullopt;
+  return Refracted{*wi, eta * eta};
+}
+
+}  // namespace
+
+LobeSample SpecularReflection::sample(Vector3f wo, Point2f) const {
+  const Vector3f wi{-wo.x, -wo.y, wo.z};
+  return {evaluateFresnel(fresnel, wi.z) / std::abs(wi.z), wi, 1, kFlags};
+}
+
+LobeSample SpecularTransmission::sample(Vector3f wo, Point2f) const {
+  const std::optional<Refracted> t = refractAtSurface(wo, etaA, etaB);
+  if (!t) return {};
+  const float transmitted = 1 - fresnelDielectric(wo.z, etaA, etaB);
+  return {Rgb(transmitted * t->radianceScale / std::abs(t->wi.z)), t->wi, 1, kFlags};
+}
+
+LobeSample FresnelSpecular::sample(Vector3f wo, Point2f u) const {
+  const float reflected = fresnelDielectric(wo.z, etaA, etaB);
+  if (u.x < reflected) {
+    const Vector3f wi{-wo.x, -wo.y, wo.z};
+    return {reflectance * (reflected / std::abs(wi.z)), wi, reflected,
+            BsdfFlags::Specular | BsdfFlags::Reflection};
+  }
+  const std::optional<Refracted> t = refractAtSurface(wo, etaA, etaB);
+  if (!t) return {};
+  return {transmittance * ((1 - reflected) * t->radianceScale / std::abs(t->wi.z)), t->wi, 1 - reflected,
+          BsdfFlags::Specular | BsdfFlags::Transmission};
+}
+
+}  // namespace pbrtmedia
