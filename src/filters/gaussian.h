@@ -12,7 +12,7 @@ class GaussianFilter final : public Filter {
     Vector2f radius{2, 2};  ///< xwidth, ywidth: pixels, > 0
     float alpha = 2;        ///< falloff, 1/pixel^2, > 0
   };
-  /// Throws SceneError when a radius is not a positive number or alpha is not above 0.
+  /// Throws SceneError when a radius is not in (0, 1000] or alpha is not above 0.
   explicit GaussianFilter(const Params& params);
   float evaluate(Point2f offset) const override;
 

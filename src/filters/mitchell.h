@@ -14,7 +14,7 @@ class MitchellFilter final : public Filter {
     float b = 1.0f / 3.0f;  ///< B and C; both 1/3 is the paper's recommendation
     float c = 1.0f / 3.0f;
   };
-  /// Throws SceneError when a radius is not a positive number or B, C are not finite.
+  /// Throws SceneError when a radius is not in (0, 1000] or B, C are not finite.
   explicit MitchellFilter(const Params& params);
   float evaluate(Point2f offset) const override;
 

@@ -13,7 +13,7 @@ class SincFilter final : public Filter {
     Vector2f radius{4, 4};  ///< xwidth, ywidth: pixels, > 0
     float tau = 3;          ///< cycles until the window is 0, pixels, > 0
   };
-  /// Throws SceneError when a radius is not a positive number or tau is not above 0.
+  /// Throws SceneError when a radius is not in (0, 1000] or tau is not above 0.
   explicit SincFilter(const Params& params);
   float evaluate(Point2f offset) const override;
 

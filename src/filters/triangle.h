@@ -11,7 +11,7 @@ class TriangleFilter final : public Filter {
   struct Params {
     Vector2f radius{2, 2};  ///< xwidth, ywidth: pixels, > 0
   };
-  /// Throws SceneError when a radius is not a positive number.
+  /// Throws SceneError when a radius is not in (0, 1000].
   explicit TriangleFilter(const Params& params);
   float evaluate(Point2f offset) const override;
 };

@@ -29,8 +29,10 @@ class HaltonSampler final : public Sampler {
  private:
   void openGroup();
 
-  std::uint64_t pixelKey_ = 0, index_ = 0;
-  std::uint64_t groupKey_ = 0, groupIndex_ = 0;
+  int bits_;  ///< of indices below samplesPerPixel
+  std::uint64_t keyOfPixel_ = 0, index_ = 0;
+  std::uint64_t groupKey_ = 0;
+  std::uint32_t groupIndex_ = 0;
   std::uint32_t groups_ = 0;  ///< opened in this sample
   int next_ = 0;              ///< base of the group that the next single number takes
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "samplers/sampler.h"
+#include "samplers/zero_two_slots.h"
 
 namespace pbrtmedia {
 
@@ -29,13 +30,11 @@ class MaxMinDistSampler final : public Sampler {
   void get2DArray(std::span<Point2f> out) override;
 
  private:
-  Point2f latticePoint() const;
-
-  std::uint32_t points_;      ///< of the lattice: a power of two
-  std::uint32_t multiplier_;  ///< point j is (j, multiplier * j mod points) / points
+  int bits_;  ///< log2 of samplesPerPixel
   int dimensions_;
-  std::uint64_t pixelKey_ = 0, index_ = 0;
-  int used1D_ = 0, used2D_ = 0;
+  int latticeBits_;           ///< log2 of the lattice's points
+  std::uint32_t multiplier_;  ///< point j is (j, multiplier * j mod points) / points
+  ZeroTwoSlots slots_;
 };
 
 }  // namespace pbrtmedia

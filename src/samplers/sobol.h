@@ -28,7 +28,8 @@ class SobolSampler final : public Sampler {
  private:
   void openGroup();
 
-  std::uint64_t pixelKey_ = 0, index_ = 0;
+  int bits_;  ///< log2 of samplesPerPixel
+  std::uint64_t keyOfPixel_ = 0, index_ = 0;
   std::uint64_t groupKey_ = 0;
   std::uint32_t groupIndex_ = 0;
   std::uint32_t groups_ = 0;  ///< opened in this sample

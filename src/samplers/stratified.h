@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include "samplers/hashed_permutation.h"
 #include "samplers/sampler.h"
 
 namespace pbrtmedia {
@@ -23,15 +24,16 @@ class StratifiedSampler final : public Sampler {
   void start(Point2i pixel, std::int64_t index) override;
   float get1D() override;
   Point2f get2D() override;
-  /// Beyond a count of 1, each sample's own `out` is a Latin square: well spread for any count.
+  /// The points of all samples together fill the cells of a grid, in a hashed order.
   void get2DArray(std::span<Point2f> out) override;
 
  private:
   std::uint32_t xSamples_, ySamples_;
   bool jitter_;
   int dimensions_;
-  std::uint64_t pixelKey_ = 0, round_ = 0;
-  std::uint32_t stratum_ = 0;
+  HashedPermutation order_;  ///< of the strata
+  std::uint64_t roundKey_ = 0, slot_ = 0;
+  std::uint32_t inRound_ = 0;
   int used1D_ = 0, used2D_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "samplers/sampler.h"
+#include "samplers/zero_two_slots.h"
 
 namespace pbrtmedia {
 
@@ -24,9 +25,9 @@ class ZeroTwoSampler final : public Sampler {
   void get2DArray(std::span<Point2f> out) override;
 
  private:
+  int bits_;  ///< log2 of samplesPerPixel
   int dimensions_;
-  std::uint64_t pixelKey_ = 0, index_ = 0;
-  int used1D_ = 0, used2D_ = 0;
+  ZeroTwoSlots slots_;
 };
 
 }  // namespace pbrtmedia
