@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfRgbaFile.h>
+#include <ImfStringAttribute.h>
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+#include "image/codecs.h"
+#include "image/decode_error.h"
+#include "image/exr_header_check.h"
+#include "image/exr_stream.h"
+
+namespace pbrtmedia {
+namespace {
+
+Bounds2i toBounds(const Imath::Box2i& b) { return {{b.min.x, b.min.y}, {b.max.x + 1, b.max.y + 1}}; }
+
+Imath::Box2i toBox(const Bounds2i& b) { return {{b.min.x, b.min.y}, {b.max.x - 1, b.max.y - 1}}; }
+
+/// Where pixel (0, 0) of the picture would be in a buffer that starts at `window.min`. Computed as a number:
+/// it is usually outside of the buffer.
+char* originOf(const void* buffer, const Bounds2i& window, std::size_t pixelBytes) {
+  const std::int64_t offset =
+      (std::int64_t{window.min.y} * window.width() + window.min.x) * static_cast<std::int64_t>(pixelBytes);
+  return reinterpret_cast<char*>(reinterpret_cast<std::uintptr_t>(buffer) -
+                                 static_cast<std::uintptr_t>(offset));
+}
+
+/// R, G, B, then A, then the others by name.
+std::vector<std::string> orderedChannels(const Imf::ChannelList& list) {
+  std::vector<std::string> names, others;
+  for (const char* name : {"R", "G", "B", "A"}) {
+    if (list.findChannel(name) != nullptr) names.emplace_back(name);
+  }
+  for (auto c = list.begin(); c != list.end(); ++c) {
+    if (std::find(names.begin(), names.end(), c.name()) == names.end()) others.emplace_back(c.name());
+  }
+  names.insert(names.end(), others.begin(), others.end());
+  return names;
+}
+
+void copyHeader(const Imf::Header& header, Image& image) {
+  image.dataWindow = toBounds(header.dataWindow());
+  image.displayWindow = toBounds(header.displayWindow());
+  for (auto a = header.begin(); a != header.end(); ++a) {
+    const std::string name = a.name();
+    if (name == "type" || name == "name") continue;  // belong to the part, not to the picture
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute())) {
+      image.metadata[name] = text->value();
+    }
+  }
+}
+
+Image readChannels(Imf::InputFile& file) {
+  const Imf::Header& header = file.header();
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+    if (c.channel().xSampling != 1 || c.channel().ySampling != 1) {
+      throw std::runtime_error(std::string("channel \"") + c.name() + "\" is subsampled");
+    }
+  }
+  const Bounds2i window = toBounds(header.dataWindow());
+  Image image(window.width(), window.height(), orderedChannels(header.channels()));
+  const std::size_t pixelBytes = image.channelCount() * sizeof(float);
+  Imf::FrameBuffer frame;
+  for (std::size_t c = 0; c < image.channelCount(); ++c) {
+    char* base = originOf(image.data().data() + c, window, pixelBytes);
+    frame.insert(image.channels()[c], Imf::Slice(Imf::FLOAT, base, pixelBytes,
+                                                 pixelBytes * static_cast<std::size_t>(window.width())));
+  }
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y - 1);
+  copyHeader(header, image);
+  return image;
+}
+
+/// Luminance and subsampled chroma: OpenEXR's own conversion knows the reconstruction filter.
+Image readLuminanceChroma(std::span<const std::byte> bytes, const std::string& name) {
+  ExrMemoryInput stream(bytes, name);
+  Imf::RgbaInputFile file(stream);
+  const Bounds2i window = toBounds(file.dataWindow());
+  const bool hasAlpha = file.header().channels().findChannel("A") != nullptr;
+  Image image(
+      window.width(), window.height(),
+      hasAlpha ? std::vector<std::string>{"R", "G", "B", "A"} : std::vector<std::string>{"R", "G", "B"});
+  std::vector<Imf::Rgba> pixels(static_cast<std::size_t>(window.area()));
+  char* base = originOf(pixels.data(), window, sizeof(Imf::Rgba));
+  file.setFrameBuffer(reinterpret_cast<Imf::Rgba*>(base), 1, static_cast<std::size_t>(window.width()));
+  file.readPixels(window.min.y, window.max.y - 1);
+  float* out = image.data().data();
+  for (const Imf::Rgba& p : pixels) {
+    *out++ = p.r;
+    *out++ = p.g;
+    *out++ = p.b;
+    if (hasAlpha) *out++ = p.a;
+  }
+  copyHeader(file.header(), image);
+  return image;
+}
+
+Imf::Compression toImf(ExrCompression c) {
+  switch (c) {
+    case ExrCompression::None:
+      return Imf::NO_COMPRESSION;
+    case ExrCompression::Zip:
+      return Imf::ZIP_COMPRESSION;
+    case ExrCompression::Piz:
+      return Imf::PIZ_COMPRESSION;
+  }
+  throw std::logic_error("unknown compression");
+}
+
+Imf::Header makeHeader(const Image& image, const WriteOptions& options) {
+  Imf::Header header(toBox(image.displayWindow), toBox(image.dataWindow), 1, Imath::V2f(0, 0), 1,
+                     Imf::INCREASING_Y, toImf(options.compression));
+  for (const auto& [key, value] : image.metadata) {
+    if (key.empty() || key.size() > 255) {
+      throw std::runtime_error("an EXR attribute needs a name of 1 to 255 bytes, found \"" + key + "\"");
+    }
+    header.insert(key, Imf::StringAttribute(value));
+  }
+  const Imf::PixelType type = options.pixelType == PixelType::Half ? Imf::HALF : Imf::FLOAT;
+  for (const std::string& name : image.channels()) header.channels().insert(name, Imf::Channel(type));
+  return header;
+}
+
+}  // namespace
+
+Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
+  try {
+    checkExrHeaders(bytes);
+    ExrMemoryInput stream(bytes, name);
+    Imf::InputFile file(stream);
+    const Imf::ChannelList& channels = file.header().channels();
+    if (channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr) {
+      return readLuminanceChroma(bytes, name);
+    }
+    return readChannels(file);
+  } catch (const std::bad_alloc&) {
+    failFile(name, "OpenEXR: not enough memory for this image");
+  } catch (const std::exception& e) {
+    failFile(name, std::string("OpenEXR: ") + e.what());
+  }
+}
+
+std::string encodeExr(const Image& image, const WriteOptions& options) {
+  if (image.width() < 1 || image.height() < 1) throw std::runtime_error("an image without pixels");
+  if (image.dataWindow.width() != image.width() || image.dataWindow.height() != image.height()) {
+    throw std::runtime_error("the data window does not have the size of the image");
+  }
+  const bool asHalf = options.pixelType == PixelType::Half;
+  std::vector<half> halves;
+  if (asHalf) halves.assign(image.data().begin(), image.data().end());
+  const void* pixels = asHalf ? static_cast<const void*>(halves.data()) : image.data().data();
+  const std::size_t valueBytes = asHalf ? sizeof(half) : sizeof(float);
+  const std::size_t pixelBytes = image.channelCount() * valueBytes;
+
+  ExrMemoryOutput stream;
+  {
+    Imf::FrameBuffer frame;
+    for (std::size_t c = 0; c < image.channelCount(); ++c) {
+      char* base = originOf(pixels, image.dataWindow, pixelBytes) + c * valueBytes;
+      frame.insert(image.channels()[c], Imf::Slice(asHalf ? Imf::HALF : Imf::FLOAT, base, pixelBytes,
+                                                   pixelBytes * static_cast<std::size_t>(image.width())));
+    }
+    Imf::OutputFile file(stream, makeHeader(image, options));
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height());
+  }
+  return stream.take();
+}
+
+}  // namespace pbrtmedia
