@@ -39,7 +39,8 @@ class SamplePass {
 /// Film `image`: weighted averages of filtered samples, sums in double. Pixel = Σ L w f / Σ f (scene-language
 /// reference 8.1); f from the 16 x 16 table of PBRT-v3. Sums are taken per pixel in a fixed order (sample
 /// index, then neighbour pixel row by row), so the image does not depend on threads, tiles or how samples are
-/// grouped.
+/// grouped. A sample counts for the pixels whose centre c satisfies -radius <= p - c < radius per axis: half
+/// open, so that one on the border of two pixels counts once.
 class Film {
  public:
   struct Settings {
@@ -48,6 +49,14 @@ class Film {
     float scale = 1;
     float maxSampleLuminance = kInfinity;
   };
+  /// Weighted sums of one pixel; everything the film remembers.
+  struct Sums {
+    double r = 0, g = 0, b = 0, weight = 0;
+    bool operator==(const Sums&) const = default;
+  };
+
+  /// Sorts and clamps the crop window. Throws SceneError for settings that make no picture: no pixels, or a
+  /// crop window, scale or luminance limit that is not a number.
   Film(const Settings& settings, std::unique_ptr<Filter> filter);
 
   const Settings& settings() const { return settings_; }
@@ -57,20 +66,25 @@ class Film {
   /// dropped sample is black but still weighs, as in PBRT-v3. Luminance above maxSampleLuminance is scaled
   /// down in place.
   bool admit(Rgb& radiance, RenderCounters& counters) const;
-  /// Adds a pass; parallel over rows.
+  /// Adds a pass over exactly `sampleBounds`; parallel over rows.
   void accumulate(const SamplePass& pass);
   /// Current image: normalised, negative values at 0, scaled. Data and display windows are set.
   Image develop() const;
 
+  /// The sums, row by row over `pixelBounds`, for checkpoints; and back. Throws std::invalid_argument when
+  /// the number of pixels differs.
+  const std::vector<Sums>& sums() const { return pixels_; }
+  void restore(std::vector<Sums> sums);
+
  private:
+  void accumulateRow(const SamplePass& pass, int y);
+
   Settings settings_;
   std::unique_ptr<Filter> filter_;
   Bounds2i pixelBounds_, sampleBounds_;
-  std::vector<float> filterTable_;
-  struct Pixel {
-    double r = 0, g = 0, b = 0, weight = 0;
-  };
-  std::vector<Pixel> pixels_;
+  std::vector<float> filterTable_;                      ///< kTableWidth^2 values over the positive quadrant
+  Point2i firstNeighbour_{0, 0}, lastNeighbour_{0, 0};  ///< pixels whose samples can reach a pixel, relative
+  std::vector<Sums> pixels_;
 };
 
 }  // namespace pbrtmedia

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include <glog/logging.h>
+
+#include <algorithm>
+
+#include "film/film.h"
+
+namespace pbrtmedia {
+
+SamplePass::SamplePass(Bounds2i sampleBounds, int samplesPerPixel)
+    : bounds_(sampleBounds), samples_(samplesPerPixel) {
+  CHECK_GT(samplesPerPixel, 0);
+  data_.resize(static_cast<std::size_t>(bounds_.area()) * static_cast<std::size_t>(samples_));
+}
+
+void SamplePass::clear() { std::fill(data_.begin(), data_.end(), Sample{}); }
+
+// One plane for each sample index: the order in which the film reads them.
+std::size_t SamplePass::index(Point2i pixel, int sample) const {
+  const auto width = static_cast<std::size_t>(bounds_.width()),
+             height = static_cast<std::size_t>(bounds_.height());
+  const auto x = static_cast<std::size_t>(pixel.x - bounds_.min.x),
+             y = static_cast<std::size_t>(pixel.y - bounds_.min.y);
+  return (static_cast<std::size_t>(sample) * height + y) * width + x;
+}
+
+}  // namespace pbrtmedia
