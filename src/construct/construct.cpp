@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/construct.h"
+
+#include <array>
+
+#include "construct/cameras.h"
+#include "construct/film.h"
+#include "construct/integrators.h"
+#include "construct/lights.h"
+#include "construct/materials.h"
+#include "construct/media.h"
+#include "construct/plugins.h"
+#include "construct/samplers.h"
+#include "construct/shapes.h"
+#include "construct/textures.h"
+#include "construct/world_builder.h"
+#include "integrators/camera_medium.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// PBRT-v3's accelerators have no effect on the image: their parameters are checked and then not needed.
+void readAccelerator(Entity& entity, Diagnostics& diagnostics) {
+  if (!entity.given) return;
+  using Read = void (*)(ParamReader&);
+  constexpr std::array<Plugin<Read>, 2> kAccelerators = {
+      {{"bvh",
+        [](ParamReader& in) {
+          constexpr std::array<std::string_view, 4> kMethods = {"sah", "hlbvh", "middle", "equal"};
+          in.findChoice("splitmethod", kMethods, 0);
+          in.findInt("maxnodeprims", 4, Range::atLeast(1));
+        }},
+       {"kdtree", [](ParamReader& in) {
+          for (const std::string_view name : {"intersectcost", "traversalcost", "maxprims", "maxdepth"}) in.findInt(name, 1);
+          in.findFloat("emptybonus", 0.5f);
+        }}}};
+  const auto* plugin = findPlugin<Read>(kAccelerators, entity, "Accelerator", diagnostics);
+  if (plugin == nullptr) return;
+  ParamReader in(entity, diagnostics, "Accelerator \"" + entity.type + "\"");
+  plugin->read(in);
+  in.reportUnused();
+}
+
+/// The explicit start medium of camera rays: nothing when the scene does not say, so that geometry decides.
+std::optional<const Medium*> cameraMediumOf(const SceneDescription& scene, const WorldBuilder& world) {
+  if (scene.cameraMedium.location.file == nullptr || scene.cameraMedium.name.empty()) return std::nullopt;
+  return world.medium(scene.cameraMedium.index);
+}
+
+CameraMedium findCameraMedium(const SceneDescription& scene, const Construction& made, const WorldBuilder& world,
+                              Diagnostics& diagnostics) {
+  if (!made.scene->hasMediumBoundaries() && scene.cameraMedium.name.empty()) return {};
+  const float middle = 0.5f;
+  const Camera::WeightedRay central = made.camera->generateRay(
+      {static_cast<float>(made.film->settings().resolution.x) / 2, static_cast<float>(made.film->settings().resolution.y) / 2},
+      {0.5f, 0.5f}, middle);
+  CameraMedium medium(*made.scene, central.ray.o, central.ray.time, cameraMediumOf(scene, world));
+  for (const std::string& warning : medium.warnings()) {
+    const bool isGiven = scene.cameraMedium.location.file != nullptr;
+    diagnostics.warning(isGiven ? scene.cameraMedium.location : scene.camera.location, warning);
+  }
+  return medium;
+}
+
+}  // namespace
+
+std::optional<Construction> construct(SceneDescription& scene, const ConstructOptions& options, Diagnostics& diagnostics) {
+  const std::size_t errorsBefore = diagnostics.errorCount();
+  FilmPlan film = readFilm(scene, options, diagnostics);
+  Construction made;
+  made.outfile = film.outfile;
+  made.camera = readCamera(scene, film.settings.resolution, diagnostics);
+  made.sampler = readSampler(scene, options, diagnostics);
+  const std::optional<IntegratorPlan> integrator = readIntegrator(scene, diagnostics);
+  readAccelerator(scene.accelerator, diagnostics);
+
+  Textures textures(scene, diagnostics);
+  Materials materials(scene, textures, diagnostics);
+  WorldBuilder world(scene, textures, materials, diagnostics);
+  world.read(options.quick);
+  if (!integrator || diagnostics.errorCount() > errorsBefore) return std::nullopt;
+
+  try {
+    made.film = std::make_unique<Film>(film.settings, std::move(film.filter));
+    made.scene = world.build(integrator->rendersMedia);
+    CameraMedium cameraMedium;
+    if (integrator->rendersMedia) cameraMedium = findCameraMedium(scene, made, world, diagnostics);
+    made.integrator = integrator->make(*made.scene, std::move(cameraMedium));
+    made.pixelBounds = integrator->pixelBounds;
+  } catch (const SceneError& e) {
+    diagnostics.add(e);
+  }
+  if (diagnostics.errorCount() > errorsBefore) return std::nullopt;
+
+  if (made.scene->lights().empty() && !made.scene->hasVisibleEmitters()) {
+    diagnostics.warning(scene.worldEnd, "the scene has no lights: the image will be black");
+  }
+  if (!integrator->rendersMedia && world.usesMedia()) {
+    diagnostics.warning(scene.integrator.given ? scene.integrator.location : scene.worldEnd,
+                        "Integrator \"" + scene.integrator.type +
+                            "\" does not render participating media, which this scene has; \"volpath\" does");
+  }
+  made.report = world.report();
+  return made;
+}
+
+}  // namespace pbrtmedia

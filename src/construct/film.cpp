@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/film.h"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+#include "construct/plugins.h"
+#include "filters/box.h"
+#include "filters/gaussian.h"
+#include "filters/mitchell.h"
+#include "filters/sinc.h"
+#include "filters/triangle.h"
+#include "image/image.h"
+#include "scene/param_reader.h"
+
+namespace pbrtmedia {
+namespace {
+
+constexpr int kMaxResolution = 1 << 20;  // pixels per axis: far above any display, far below overflow
+
+using ReadFilter = std::unique_ptr<Filter> (*)(ParamReader&);
+
+Vector2f readRadius(ParamReader& in, Vector2f fallback) {
+  return {in.findFloat("xwidth", fallback.x, Range::positive()), in.findFloat("ywidth", fallback.y, Range::positive())};
+}
+
+std::unique_ptr<Filter> readBox(ParamReader& in) {
+  return std::make_unique<BoxFilter>(BoxFilter::Params{.radius = readRadius(in, BoxFilter::Params{}.radius)});
+}
+
+std::unique_ptr<Filter> readTriangle(ParamReader& in) {
+  return std::make_unique<TriangleFilter>(TriangleFilter::Params{.radius = readRadius(in, TriangleFilter::Params{}.radius)});
+}
+
+std::unique_ptr<Filter> readGaussian(ParamReader& in) {
+  GaussianFilter::Params p;
+  p.radius = readRadius(in, p.radius);
+  p.alpha = in.findFloat("alpha", p.alpha, Range::positive());
+  return std::make_unique<GaussianFilter>(p);
+}
+
+std::unique_ptr<Filter> readMitchell(ParamReader& in) {
+  MitchellFilter::Params p;
+  p.radius = readRadius(in, p.radius);
+  p.b = in.findFloat("B", p.b);
+  p.c = in.findFloat("C", p.c);
+  return std::make_unique<MitchellFilter>(p);
+}
+
+std::unique_ptr<Filter> readSinc(ParamReader& in) {
+  SincFilter::Params p;
+  p.radius = readRadius(in, p.radius);
+  p.tau = in.findFloat("tau", p.tau, Range::positive());
+  return std::make_unique<SincFilter>(p);
+}
+
+constexpr std::array<Plugin<ReadFilter>, 5> kFilters = {{{"box", readBox},
+                                                         {"triangle", readTriangle},
+                                                         {"gaussian", readGaussian},
+                                                         {"mitchell", readMitchell},
+                                                         {"sinc", readSinc}}};
+
+std::unique_ptr<Filter> readFilter(Entity& entity, Diagnostics& diagnostics) {
+  if (!entity.given) return std::make_unique<BoxFilter>(BoxFilter::Params{});
+  const auto* plugin = findPlugin<ReadFilter>(kFilters, entity, "PixelFilter", diagnostics);
+  if (plugin == nullptr) return std::make_unique<BoxFilter>(BoxFilter::Params{});
+  ParamReader in(entity, diagnostics, "PixelFilter \"" + entity.type + "\"");
+  auto filter = plugin->read(in);
+  in.reportUnused();
+  return filter;
+}
+
+/// Sorted and clamped as PBRT-v3 does it.
+void setCropWindow(Film::Settings& settings, std::span<const float> c) {
+  const auto clamped = [](float x) { return std::clamp(x, 0.0f, 1.0f); };
+  settings.cropWindow[0] = clamped(std::min(c[0], c[1]));
+  settings.cropWindow[1] = clamped(std::max(c[0], c[1]));
+  settings.cropWindow[2] = clamped(std::min(c[2], c[3]));
+  settings.cropWindow[3] = clamped(std::max(c[2], c[3]));
+}
+
+/// Whether the image could be written, found out before hours of rendering.
+void checkOutfile(const std::filesystem::path& path, const SourceLocation& location, Diagnostics& diagnostics) {
+  if (!isWritableImageName(path)) {
+    diagnostics.error(location, "output \"" + path.string() + "\": unknown image format \"" + path.extension().string() +
+                                    "\"; known: .exr, .png, .pfm, .tga");
+    return;
+  }
+  std::error_code error;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder, error)) {
+    diagnostics.error(location, "output \"" + path.string() + "\": folder \"" + folder.string() + "\" does not exist");
+  } else if (std::filesystem::is_directory(path, error)) {
+    diagnostics.error(location, "output \"" + path.string() + "\" is a folder");
+  }
+}
+
+}  // namespace
+
+FilmPlan readFilm(SceneDescription& scene, const ConstructOptions& options, Diagnostics& diagnostics) {
+  FilmPlan plan;
+  plan.filter = readFilter(scene.filter, diagnostics);
+  Entity& entity = scene.film;
+  if (entity.given && entity.type != "image") {
+    constexpr std::string_view kKnown[] = {"image"};
+    diagnostics.error(entity.typeLocation, "Film: unknown type \"" + entity.type + "\"" + suggestion(entity.type, kKnown));
+    return plan;
+  }
+  ParamReader in(entity, diagnostics, "Film \"image\"");
+  Film::Settings& s = plan.settings;
+  const Range resolution = Range::closed(1, kMaxResolution);
+  s.resolution = {in.findInt("xresolution", s.resolution.x, resolution), in.findInt("yresolution", s.resolution.y, resolution)};
+  if (options.quick) s.resolution = {std::max(1, s.resolution.x / 4), std::max(1, s.resolution.y / 4)};
+  s.scale = in.findFloat("scale", s.scale);
+  s.maxSampleLuminance = in.findFloat("maxsampleluminance", s.maxSampleLuminance, Range::positive());
+  // Only the realistic camera of PBRT-v3 uses it, which this renderer does not have: read, so that scenes that
+  // give it load.
+  in.findFloat("diagonal", 35, Range::positive());
+  if (options.cropWindow) setCropWindow(s, *options.cropWindow);
+  if (in.has(ParamKind::Float, "cropwindow")) {
+    const std::span<const float> crop = in.floats("cropwindow");
+    if (crop.size() == 4) {
+      setCropWindow(s, crop);
+    } else {
+      in.error(ParamKind::Float, "cropwindow", "found " + std::to_string(crop.size()) + " numbers, expected 4: x0 x1 y0 y1");
+    }
+  }
+  const std::string filename = in.findString("filename", "pbrt.exr");
+  const bool named = in.has(ParamKind::String, "filename");
+  plan.outfile = options.outfile ? *options.outfile : std::filesystem::path(filename);
+  checkOutfile(plan.outfile, !options.outfile && named ? in.locationOf(ParamKind::String, "filename") : SourceLocation{},
+               diagnostics);
+  in.reportUnused();
+  return plan;
+}
+
+}  // namespace pbrtmedia

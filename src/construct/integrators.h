@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "base/bounds.h"
+#include "integrators/camera_medium.h"
+#include "integrators/integrator.h"
+#include "integrators/scene.h"
+#include "scene/description.h"
+
+namespace pbrtmedia {
+
+/// An integrator whose parameters are checked.
+struct IntegratorPlan {
+  std::function<std::unique_ptr<Integrator>(const Scene&, CameraMedium)> make;
+  bool rendersMedia = false;
+  std::optional<Bounds2i> pixelBounds;
+};
+
+/// Reads Integrator. Nothing for an unknown type.
+std::optional<IntegratorPlan> readIntegrator(SceneDescription& scene, Diagnostics& diagnostics);
+
+}  // namespace pbrtmedia

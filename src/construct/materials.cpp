@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/materials.h"
+
+#include <array>
+
+#include "construct/plugins.h"
+#include "materials/glass.h"
+#include "materials/matte.h"
+#include "materials/metal.h"
+#include "materials/mirror.h"
+#include "materials/mix.h"
+#include "materials/plastic.h"
+#include "materials/substrate.h"
+#include "materials/translucent.h"
+#include "materials/uber.h"
+
+namespace pbrtmedia {
+namespace {
+
+using Make = Materials::Make;
+using ReadMaterial = Make (*)(Texturable&);
+
+/// A dielectric's index: "eta", else "index".
+TextureUse<float> readEta(Texturable& in, float fallback) {
+  const auto eta = in.optionalFloat("eta", Range::positive());
+  const auto index = in.optionalFloat("index", Range::positive());
+  return eta ? *eta : index.value_or(TextureUse<float>{TextureUse<float>::kConstant, fallback});
+}
+
+Make readMatte(Texturable& in) {
+  const auto kd = in.findRgb("Kd", Rgb(0.5f));
+  const auto sigma = in.findFloat("sigma", 0);
+  const auto bump = in.optionalFloat("bumpmap");
+  return [=](Materials& m) {
+    Textures& t = m.textures();
+    return std::make_unique<MatteMaterial>(
+        MatteParams{.kd = t.rgbTexture(kd), .sigma = t.floatTexture(sigma), .bumpMap = t.floatTexture(bump)});
+  };
+}
+
+Make readPlastic(Texturable& in) {
+  const auto kd = in.findRgb("Kd", Rgb(0.25f)), ks = in.findRgb("Ks", Rgb(0.25f));
+  const auto roughness = in.findFloat("roughness", 0.1f);
+  const bool remap = in.findBool("remaproughness", true);
+  const auto bump = in.optionalFloat("bumpmap");
+  return [=](Materials& m) {
+    Textures& t = m.textures();
+    return std::make_unique<PlasticMaterial>(PlasticParams{.kd = t.rgbTexture(kd),
+                                                           .ks = t.rgbTexture(ks),
+                                                           .roughness = t.floatTexture(roughness),
+                                                           .remapRoughness = remap,
+                                                           .bumpMap = t.floatTexture(bump)});
+  };
+}
+
+Make readGlass(Texturable& in) {
+  const auto kr = in.findRgb("Kr", Rgb(1)), kt = in.findRgb("Kt", Rgb(1));
+  const auto eta = readEta(in, 1.5f);
+  const auto u = in.findFloat("uroughness", 0), v = in.findFloat("vroughness", 0);
+  const bool remap = in.findBool("remaproughness", true);
+  const auto bump = in.optionalFloat("bumpmap");
+  return [=](Materials& m) {
+    Textures& t = m.textures();
+    return std::make_unique<GlassMaterial>(GlassParams{.kr = t.rgbTexture(kr),
+                                                       .kt = t.rgbTexture(kt),
+                                                       .eta = t.floatTexture(eta),
+                                                       .uRoughness = t.floatTexture(u),
+                                                       .vRoughness = t.floatTexture(v),
+                                                       .remapRoughness = remap,
+                                                       .bumpMap = t.floatTexture(bump)});
+  };
+}
+
+Make readMirror(Texturable& in) {
+  const auto kr = in.findRgb("Kr", Rgb(0.9f));
+  const auto bump = in.optionalFloat("bumpmap");
+  return [=](Materials& m) {
+    Textures& t = m.textures();
+    return std::make_unique<MirrorMaterial>(MirrorParams{.kr = t.rgbTexture(kr), .bumpMap = t.floatTexture(bump)});
+  };
+}
+
+Make readMetal(Texturable& in) {
+  const auto eta = in.findRgb("eta", kCopperEta), k = in.findRgb("k", kCopperK);
+  const auto roughness = in.findFloat("roughness", 0.01f);
+  const auto u = in.optionalFloat("uroughness"), v = in.optionalFloat("vroughness");
+  const bool remap = in.findBool("remaproughness", true);
+  const auto bump = in.optionalFloat("bumpmap");
+  return [=](Materials& m) {
+    Textures& t = m.textures();
+    return std::make_unique<MetalMaterial>(MetalParams{.eta = t.rgbTexture(eta),
+                                                       .k = t.rgbTexture(k),
+                                                       .roughness = t.floatTexture(roughness),
+                                                       .uRoughness = t.floatTexture(u),
+                                                       .vRoughness = t.floatTexture(v),
+                                                       .remapRoughness = remap,
+                                                       .bumpMap = t.floatTexture(bump)});
+  };
+}
+
+Make readSubstrate(Texturable& in) {
+  const auto kd = in.findRgb("Kd", Rgb(0.5f)), ks = in.findRgb("Ks", Rgb(0.5f));
+  const auto u = in.findFloat("uroughness", 0.1f), v = in.findFloat("vroughness", 0.1f);
+  const bool remap = in.findBool("remaproughness", true);
+  const auto bump = in.optionalFloat("bumpmap");
+  return [=](Materials& m) {
+    Textures& t = m.textures();
+    return std::make_unique<SubstrateMaterial>(SubstrateParams{.kd = t.rgbTexture(kd),
+                                                               .ks = t.rgbTexture(ks),
+                                                               .uRoughness = t.floatTexture(u),
+                                                               .vRoughness = t.floatTexture(v),
+                                                               .remapRoughness = remap,
+                                                               .bumpMap = t.floatTexture(bump)});
+  };
+}
+
+Make readTranslucent(Texturable& in) {
+  const auto kd = in.findRgb("Kd", Rgb(0.25f)), ks = in.findRgb("Ks", Rgb(0.25f));
+  const auto reflect = in.findRgb("reflect", Rgb(0.5f)), transmit = in.findRgb("transmit", Rgb(0.5f));
+  const auto roughness = in.findFloat("roughness", 0.1f);
+  const bool remap = in.findBool("remaproughness", true);
+  const auto bump = in.optionalFloat("bumpmap");
+  return [=](Materials& m) {
+    Textures& t = m.textures();
+    return std::make_unique<TranslucentMaterial>(TranslucentParams{.kd = t.rgbTexture(kd),
+                                                                   .ks = t.rgbTexture(ks),
+                                                                   .reflect = t.rgbTexture(reflect),
+                                                                   .transmit = t.rgbTexture(transmit),
+                                                                   .roughness = t.floatTexture(roughness),
+                                                                   .remapRoughness = remap,
+                                                                   .bumpMap = t.floatTexture(bump)});
+  };
+}
+
+Make readUber(Texturable& in) {
+  const auto kd = in.findRgb("Kd", Rgb(0.25f)), ks = in.findRgb("Ks", Rgb(0.25f));
+  const auto kr = in.findRgb("Kr", Rgb(0)), kt = in.findRgb("Kt", Rgb(0));
+  const auto opacity = in.findRgb("opacity", Rgb(1));
+  const auto roughness = in.findFloat("roughness", 0.1f);
+  const auto u = in.optionalFloat("uroughness"), v = in.optionalFloat("vroughness");
+  const auto eta = readEta(in, 1.5f);
+  const bool remap = in.findBool("remaproughness", true);
+  const auto bump = in.optionalFloat("bumpmap");
+  return [=](Materials& m) {
+    Textures& t = m.textures();
+    return std::make_unique<UberMaterial>(UberParams{.kd = t.rgbTexture(kd),
+                                                     .ks = t.rgbTexture(ks),
+                                                     .kr = t.rgbTexture(kr),
+                                                     .kt = t.rgbTexture(kt),
+                                                     .opacity = t.rgbTexture(opacity),
+                                                     .roughness = t.floatTexture(roughness),
+                                                     .uRoughness = t.floatTexture(u),
+                                                     .vRoughness = t.floatTexture(v),
+                                                     .eta = t.floatTexture(eta),
+                                                     .remapRoughness = remap,
+                                                     .bumpMap = t.floatTexture(bump)});
+  };
+}
+
+Make readMix(Texturable& in) {
+  const auto amount = in.findRgb("amount", Rgb(0.5f));
+  std::array<std::int32_t, 2> parts{kNone, kNone};
+  constexpr std::array<std::string_view, 2> kNames = {"namedmaterial1", "namedmaterial2"};
+  bool complete = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::optional<std::string> name = in.optionalString(kNames[i]);
+    if (!name) {
+      in.own().error("parameter \"" + std::string(kNames[i]) + "\" is missing");
+      complete = false;
+      continue;
+    }
+    if (const auto index = NameScope::find(in.scope(), NameScope::Kind::Material, *name)) {
+      parts[i] = static_cast<std::int32_t>(*index);
+      continue;
+    }
+    const std::vector<std::string> owned = NameScope::names(in.scope(), NameScope::Kind::Material);
+    const std::vector<std::string_view> known(owned.begin(), owned.end());
+    in.own().error(ParamKind::String, kNames[i], "unknown material \"" + *name + "\"" + suggestion(*name, known));
+    complete = false;
+  }
+  if (!complete) return {};
+  return [=](Materials& m) -> std::unique_ptr<Material> {
+    const Material* first = m.buildShared(parts[0]);
+    const Material* second = m.buildShared(parts[1]);
+    if (first == nullptr || second == nullptr) throw std::invalid_argument("cannot mix with a material of type \"none\"");
+    return std::make_unique<MixMaterial>(*first, *second, *m.textures().rgbTexture(amount));
+  };
+}
+
+constexpr std::array<Plugin<ReadMaterial>, 9> kMaterials = {{{"matte", readMatte},
+                                                             {"plastic", readPlastic},
+                                                             {"glass", readGlass},
+                                                             {"mirror", readMirror},
+                                                             {"metal", readMetal},
+                                                             {"uber", readUber},
+                                                             {"substrate", readSubstrate},
+                                                             {"translucent", readTranslucent},
+                                                             {"mix", readMix}}};
+
+std::string contextOf(const MaterialDescription& d) {
+  return d.name.empty() ? "Material \"" + d.type + "\"" : "material \"" + d.name + "\"";
+}
+
+}  // namespace
+
+Materials::Materials(SceneDescription& scene, Textures& textures, Diagnostics& diagnostics)
+    : scene_(scene), textures_(textures), plans_(scene.materials.size()), shared_(scene.materials.size()) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    MaterialDescription& d = scene.materials[i];
+    const std::string context = contextOf(d);
+    ParamReader in(d, diagnostics, context);
+    if (d.isNone()) {
+      in.reportUnused();
+      continue;
+    }
+    Texturable texturable(in, d.scope);
+    const auto* plugin =
+        findPlugin<ReadMaterial>(kMaterials, d, d.name.empty() ? "Material" : context, diagnostics);
+    // PBRT-v3 makes a matte of an unknown material; that is what --lenient gives.
+    plans_[i] = plugin != nullptr ? plugin->read(texturable) : readMatte(texturable);
+    in.reportUnused();
+  }
+}
+
+Materials::Use Materials::readForShape(const ShapeDescription& shape, ParamReader& in, Diagnostics& diagnostics) {
+  Use use;
+  use.material = shape.material;
+  if (shape.material == kNone) {
+    // The default matte, which a shape can override too.
+    Entity defaults;
+    defaults.type = "matte";
+    defaults.location = shape.location;
+    ParamReader own(defaults, diagnostics, "Material \"matte\"");
+    Texturable texturable(in, shape.scope, own, nullptr);
+    Make make = readMatte(texturable);
+    if (texturable.shapeOverrides()) use.own = std::move(make);
+    return use;
+  }
+  MaterialDescription& d = scene_.materials[static_cast<std::size_t>(shape.material)];
+  if (d.isNone()) {
+    use.isNone = true;
+    return use;
+  }
+  bool unread = false;
+  for (const Param& param : shape.params.all()) unread = unread || !param.used;
+  if (!unread) return use;
+  const ReadMaterial* read = nullptr;
+  for (const auto& plugin : kMaterials) {
+    if (plugin.name == d.type) read = &plugin.read;
+  }
+  ParamReader own(d, diagnostics, contextOf(d));
+  Texturable texturable(in, shape.scope, own, d.scope);
+  const std::size_t before = diagnostics.errorCount();
+  Make make = read != nullptr ? (*read)(texturable) : readMatte(texturable);
+  if (texturable.shapeOverrides() && diagnostics.errorCount() == before) use.own = std::move(make);
+  return use;
+}
+
+const Material* Materials::keep(std::unique_ptr<Material> material) {
+  built_.push_back(std::move(material));
+  return built_.back().get();
+}
+
+const Material* Materials::buildShared(std::int32_t index) {
+  if (index == kNone) {
+    if (default_ == nullptr) {
+      default_ = keep(std::make_unique<MatteMaterial>(
+          MatteParams{.kd = textures_.rgbTexture(TextureUse<Rgb>{TextureUse<Rgb>::kConstant, Rgb(0.5f)}),
+                      .sigma = textures_.floatTexture(TextureUse<float>{TextureUse<float>::kConstant, 0.0f})}));
+    }
+    return default_;
+  }
+  const auto i = static_cast<std::size_t>(index);
+  if (!plans_[i]) return nullptr;
+  if (shared_[i] == nullptr) {
+    const MaterialDescription& d = scene_.materials[i];
+    shared_[i] = keep(builtAt(d.location, contextOf(d), [&] { return plans_[i](*this); }));
+  }
+  return shared_[i];
+}
+
+const Material* Materials::build(const Use& use) {
+  if (use.isNone) return nullptr;
+  return use.own ? keep(use.own(*this)) : buildShared(use.material);
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/samplers.h"
+
+#include <array>
+#include <cmath>
+
+#include "construct/plugins.h"
+#include "samplers/halton.h"
+#include "samplers/max_min_dist.h"
+#include "samplers/random.h"
+#include "samplers/sobol.h"
+#include "samplers/stratified.h"
+#include "samplers/zero_two.h"
+#include "scene/param_reader.h"
+
+namespace pbrtmedia {
+namespace {
+
+using ReadSampler = std::unique_ptr<Sampler> (*)(ParamReader&, const ConstructOptions&);
+
+/// --spp, else 1 for --quick, else "pixelsamples".
+std::int64_t readPixelSamples(ParamReader& in, const ConstructOptions& options, std::int64_t fallback, bool quickIsOne = true) {
+  const std::int64_t asked = in.findInt("pixelsamples", static_cast<int>(fallback), Range::atLeast(1));
+  if (options.samplesPerPixel) return *options.samplesPerPixel;
+  return options.quick && quickIsOne ? 1 : asked;
+}
+
+int readDimensions(ParamReader& in) { return in.findInt("dimensions", 4, Range::closed(0, 1 << 16)); }
+
+std::unique_ptr<Sampler> readHalton(ParamReader& in, const ConstructOptions& options) {
+  HaltonSampler::Params p;
+  p.pixelSamples = readPixelSamples(in, options, p.pixelSamples);
+  p.samplePixelCentre = in.findBool("samplepixelcenter", p.samplePixelCentre);
+  p.seed = options.seed;
+  return std::make_unique<HaltonSampler>(p);
+}
+
+std::unique_ptr<Sampler> readRandom(ParamReader& in, const ConstructOptions& options) {
+  RandomSampler::Params p;
+  p.pixelSamples = readPixelSamples(in, options, p.pixelSamples, /*quickIsOne=*/false);
+  p.seed = options.seed;
+  return std::make_unique<RandomSampler>(p);
+}
+
+std::unique_ptr<Sampler> readSobol(ParamReader& in, const ConstructOptions& options) {
+  SobolSampler::Params p;
+  p.pixelSamples = readPixelSamples(in, options, p.pixelSamples);
+  p.seed = options.seed;
+  return std::make_unique<SobolSampler>(p);
+}
+
+std::unique_ptr<Sampler> readZeroTwo(ParamReader& in, const ConstructOptions& options) {
+  ZeroTwoSampler::Params p;
+  p.pixelSamples = readPixelSamples(in, options, p.pixelSamples);
+  p.dimensions = readDimensions(in);
+  p.seed = options.seed;
+  return std::make_unique<ZeroTwoSampler>(p);
+}
+
+std::unique_ptr<Sampler> readMaxMinDist(ParamReader& in, const ConstructOptions& options) {
+  MaxMinDistSampler::Params p;
+  p.pixelSamples = readPixelSamples(in, options, p.pixelSamples);
+  p.dimensions = readDimensions(in);
+  p.seed = options.seed;
+  return std::make_unique<MaxMinDistSampler>(p);
+}
+
+std::unique_ptr<Sampler> readStratified(ParamReader& in, const ConstructOptions& options) {
+  StratifiedSampler::Params p;
+  const Range range = Range::closed(1, 1 << 15);
+  p.xSamples = in.findInt("xsamples", p.xSamples, range);
+  p.ySamples = in.findInt("ysamples", p.ySamples, range);
+  p.jitter = in.findBool("jitter", p.jitter);
+  p.dimensions = readDimensions(in);
+  p.seed = options.seed;
+  if (options.quick) p.xSamples = p.ySamples = 1;
+  if (options.samplesPerPixel) {  // the factors nearest to a square
+    auto x = static_cast<std::int64_t>(std::sqrt(static_cast<double>(*options.samplesPerPixel)));
+    while (*options.samplesPerPixel % x != 0) --x;
+    p.xSamples = static_cast<int>(x);
+    p.ySamples = static_cast<int>(*options.samplesPerPixel / x);
+  }
+  return std::make_unique<StratifiedSampler>(p);
+}
+
+constexpr std::array<Plugin<ReadSampler>, 7> kSamplers = {{{"halton", readHalton},
+                                                           {"sobol", readSobol},
+                                                           {"02sequence", readZeroTwo},
+                                                           {"lowdiscrepancy", readZeroTwo},
+                                                           {"maxmindist", readMaxMinDist},
+                                                           {"stratified", readStratified},
+                                                           {"random", readRandom}}};
+
+}  // namespace
+
+std::unique_ptr<Sampler> readSampler(SceneDescription& scene, const ConstructOptions& options, Diagnostics& diagnostics) {
+  Entity& entity = scene.sampler;
+  if (!entity.given) entity.type = "halton";
+  const auto* plugin = findPlugin<ReadSampler>(kSamplers, entity, "Sampler", diagnostics);
+  if (plugin == nullptr) {
+    if (diagnostics.lenient) diagnostics.error(entity.typeLocation, "Sampler: nothing can be rendered without a sampler");
+    return nullptr;
+  }
+  ParamReader in(entity, diagnostics, "Sampler \"" + entity.type + "\"");
+  const std::size_t before = diagnostics.errorCount();
+  std::unique_ptr<Sampler> sampler;
+  try {
+    sampler = builtAt(entity.location, in.context(), [&] { return plugin->read(in, options); });
+  } catch (const SceneError& e) {
+    if (diagnostics.errorCount() == before) diagnostics.add(e);
+  }
+  if (sampler != nullptr && diagnostics.errorCount() == before && !options.samplesPerPixel && !options.quick) {
+    const Param* asked = in.find(ParamKind::Integer, "pixelsamples");
+    const auto* counts = asked != nullptr ? std::get_if<std::vector<int>>(&asked->values) : nullptr;
+    if (counts != nullptr && counts->size() == 1 && counts->front() != sampler->samplesPerPixel()) {
+      diagnostics.warning(in.locationOf(ParamKind::Integer, "pixelsamples"),
+                          in.context() + ": " + std::to_string(counts->front()) + " samples per pixel are rounded up to " +
+                              std::to_string(sampler->samplesPerPixel()) + ", a power of two");
+    }
+  }
+  in.reportUnused();
+  return sampler;
+}
+
+}  // namespace pbrtmedia

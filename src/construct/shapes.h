@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "construct/texturable.h"
+#include "scene/description.h"
+#include "shapes/shape.h"
+
+namespace pbrtmedia {
+
+/// A shape whose parameters are checked; `make` does the work (reads the file, subdivides, copies) and may throw
+/// SceneError. Call it once: it takes the arrays out of the description.
+struct ShapePlan {
+  std::function<std::unique_ptr<Shape>(Diagnostics&)> make;
+  std::optional<TextureUse<float>> alpha, shadowAlpha;
+};
+
+/// Reads a Shape. Nothing for an unknown type or after an error. `in` reads the shape's list; it may be handed on to
+/// the material before unused parameters are reported.
+std::optional<ShapePlan> readShape(ShapeDescription& shape, ParamReader& in, Diagnostics& diagnostics);
+
+}  // namespace pbrtmedia

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/texturable.h"
+
+#include <type_traits>
+#include <vector>
+
+namespace pbrtmedia {
+
+template <class T>
+std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope::Ptr& scope, std::string_view name,
+                                                Range range) {
+  constexpr bool kIsFloat = std::is_same_v<T, float>;
+  constexpr ParamKind kKind = kIsFloat ? ParamKind::Float : ParamKind::Spectrum;
+  constexpr auto kFlavour = kIsFloat ? NameScope::Kind::FloatTexture : NameScope::Kind::SpectrumTexture;
+  if (in.has(ParamKind::Texture, name)) {
+    in.has(kKind, name);  // a constant of the same name loses, but it is known
+    const std::optional<std::string> texture = in.findTextureName(name);
+    if (!texture) return std::nullopt;
+    if (const auto index = NameScope::find(scope, kFlavour, *texture)) return TextureUse<T>{*index, T{}};
+    const std::vector<std::string> owned = NameScope::names(scope, kFlavour);
+    const std::vector<std::string_view> known(owned.begin(), owned.end());
+    const bool otherFlavour =
+        NameScope::find(scope, kIsFloat ? NameScope::Kind::SpectrumTexture : NameScope::Kind::FloatTexture, *texture).has_value();
+    const std::string what = kIsFloat ? "float" : "spectrum";
+    in.error(ParamKind::Texture, name,
+             otherFlavour ? "texture \"" + *texture + "\" is a " + (kIsFloat ? "spectrum" : "float") +
+                                " texture, expected a " + what + " texture"
+             : known.empty() ? "unknown " + what + " texture \"" + *texture + "\"; none is defined here"
+                             : "unknown " + what + " texture \"" + *texture + "\"" + suggestion(*texture, known));
+    return std::nullopt;
+  }
+  const Param* param = in.find(kKind, name);
+  if (param == nullptr) return std::nullopt;
+  if (param->size() == 0) {
+    in.error(kKind, name, "found an empty list, expected a value or a texture");
+    return std::nullopt;
+  }
+  if (param->size() > 1) {
+    in.diagnostics().lenientError(in.locationOf(kKind, name), in.context() + ": parameter \"" + std::string(name) + "\": found " +
+                                                                  std::to_string(param->size()) + " values, expected 1");
+  }
+  const T value = std::get<std::vector<T>>(param->values).front();
+  if constexpr (kIsFloat) {
+    if (!range.contains(value)) {
+      in.error(kKind, name, "found " + std::to_string(value) + ", expected a number " + range.toString());
+      return std::nullopt;
+    }
+  }
+  return TextureUse<T>{TextureUse<T>::kConstant, value};
+}
+
+template <class T>
+std::optional<TextureUse<T>> Texturable::find(std::string_view name, Range range) {
+  if (shape_ != nullptr) {
+    if (auto use = findIn<T>(*shape_, shapeScope_, name, range)) {
+      shapeOverrides_ = true;
+      return use;
+    }
+  }
+  return findIn<T>(own_, ownScope_, name, range);
+}
+
+std::optional<TextureUse<float>> Texturable::optionalFloat(std::string_view name, Range range) {
+  return find<float>(name, range);
+}
+
+std::optional<TextureUse<Rgb>> Texturable::optionalRgb(std::string_view name) { return find<Rgb>(name, {}); }
+
+TextureUse<float> Texturable::findFloat(std::string_view name, float fallback, Range range) {
+  return find<float>(name, range).value_or(TextureUse<float>{TextureUse<float>::kConstant, fallback});
+}
+
+TextureUse<Rgb> Texturable::findRgb(std::string_view name, Rgb fallback) {
+  return find<Rgb>(name, {}).value_or(TextureUse<Rgb>{TextureUse<Rgb>::kConstant, fallback});
+}
+
+bool Texturable::findBool(std::string_view name, bool fallback) {
+  if (shape_ != nullptr) {
+    if (const std::optional<bool> value = shape_->optionalBool(name)) {
+      shapeOverrides_ = true;
+      return *value;
+    }
+  }
+  return own_.findBool(name, fallback);
+}
+
+std::optional<std::string> Texturable::optionalString(std::string_view name) {
+  if (shape_ != nullptr) {
+    if (std::optional<std::string> value = shape_->optionalString(name)) {
+      shapeOverrides_ = true;
+      return value;
+    }
+  }
+  return own_.optionalString(name);
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scene/name_scope.h"
+#include "scene/param_reader.h"
+#include "spectrum/rgb.h"
+
+namespace pbrtmedia {
+
+/// A parameter that may be a number or a texture: which texture of the scene, or which constant.
+template <class T>
+struct TextureUse {
+  static constexpr std::uint32_t kConstant = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t texture = kConstant;  ///< into SceneDescription::textures
+  T constant{};
+  bool isConstant() const { return texture == kConstant; }
+};
+
+/// Looks parameters up in a shape's list first, then in the material's own (scene-language reference 3.3): texture in
+/// the shape's, constant in the shape's, texture in the own, constant in the own, default. Without a shape only the
+/// own list counts. Remembers whether the shape's list gave anything.
+class Texturable {
+ public:
+  Texturable(ParamReader& own, NameScope::Ptr ownScope) : own_(own), ownScope_(std::move(ownScope)) {}
+  Texturable(ParamReader& shape, NameScope::Ptr shapeScope, ParamReader& own, NameScope::Ptr ownScope)
+      : own_(own), ownScope_(std::move(ownScope)), shape_(&shape), shapeScope_(std::move(shapeScope)) {}
+
+  TextureUse<float> findFloat(std::string_view name, float fallback, Range range = {});
+  TextureUse<Rgb> findRgb(std::string_view name, Rgb fallback);
+  std::optional<TextureUse<float>> optionalFloat(std::string_view name, Range range = {});
+  std::optional<TextureUse<Rgb>> optionalRgb(std::string_view name);
+  bool findBool(std::string_view name, bool fallback);
+  std::optional<std::string> optionalString(std::string_view name);
+
+  /// A parameter of the shape was used: the material is of this shape alone.
+  bool shapeOverrides() const { return shapeOverrides_; }
+  ParamReader& own() { return own_; }
+  /// Where a name is looked up: with a shape, what is in force at the Shape.
+  const NameScope::Ptr& scope() const { return shape_ != nullptr ? shapeScope_ : ownScope_; }
+
+ private:
+  template <class T>
+  std::optional<TextureUse<T>> findIn(ParamReader& in, const NameScope::Ptr& scope, std::string_view name, Range range);
+  template <class T>
+  std::optional<TextureUse<T>> find(std::string_view name, Range range);
+
+  ParamReader& own_;
+  NameScope::Ptr ownScope_;
+  ParamReader* shape_ = nullptr;
+  NameScope::Ptr shapeScope_;
+  bool shapeOverrides_ = false;
+};
+
+}  // namespace pbrtmedia

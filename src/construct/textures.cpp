@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/textures.h"
+
+#include <array>
+#include <type_traits>
+
+#include "construct/plugins.h"
+#include "image/image.h"
+#include "textures/bilerp.h"
+#include "textures/checkerboard.h"
+#include "textures/dots.h"
+#include "textures/fbm.h"
+#include "textures/marble.h"
+#include "textures/mix.h"
+#include "textures/scale.h"
+#include "textures/uv.h"
+#include "textures/windy.h"
+#include "textures/wrinkled.h"
+
+namespace pbrtmedia {
+namespace {
+
+using Plan = Textures::Plan;
+using ReadTexture = Plan (*)(Texturable&, const TextureDescription&);
+
+constexpr int kMaxOctaves = 64;  // beyond, 1.99^octaves leaves every footprint and most float ranges
+
+template <class T, class Make>
+Plan planOf(Make make) {
+  if constexpr (std::is_same_v<T, float>) {
+    return {std::move(make), nullptr};
+  } else {
+    return {nullptr, std::move(make)};
+  }
+}
+
+template <class T>
+TextureUse<T> findUse(Texturable& in, std::string_view name, float fallback) {
+  if constexpr (std::is_same_v<T, float>) {
+    return in.findFloat(name, fallback);
+  } else {
+    return in.findRgb(name, Rgb(fallback));
+  }
+}
+
+template <class T>
+const Texture<T>& resolve(Textures& textures, const TextureUse<T>& use) {
+  if constexpr (std::is_same_v<T, float>) {
+    return *textures.floatTexture(use);
+  } else {
+    return *textures.rgbTexture(use);
+  }
+}
+
+template <class T>
+T findConstant(ParamReader& in, std::string_view name, float fallback) {
+  if constexpr (std::is_same_v<T, float>) {
+    return in.findFloat(name, fallback);
+  } else {
+    return in.findSpectrum(name, Rgb(fallback));
+  }
+}
+
+Mapping2d readMapping2d(ParamReader& in, const Transform& ctm) {
+  constexpr std::array<std::string_view, 4> kMappings = {"uv", "spherical", "cylindrical", "planar"};
+  switch (in.findChoice("mapping", kMappings, 0)) {
+    case 1:
+      return SphericalMapping(ctm);
+    case 2:
+      return CylindricalMapping(ctm);
+    case 3:
+      return PlanarMapping{.v1 = in.findVector3("v1", {1, 0, 0}),
+                           .v2 = in.findVector3("v2", {0, 1, 0}),
+                           .uDelta = in.findFloat("udelta", 0),
+                           .vDelta = in.findFloat("vdelta", 0)};
+    default:
+      return UvMapping{.uScale = in.findFloat("uscale", 1),
+                       .vScale = in.findFloat("vscale", 1),
+                       .uDelta = in.findFloat("udelta", 0),
+                       .vDelta = in.findFloat("vdelta", 0)};
+  }
+}
+
+FractalParams readFractal(ParamReader& in) {
+  return {.octaves = in.findInt("octaves", 8, Range::closed(0, kMaxOctaves)), .roughness = in.findFloat("roughness", 0.5f)};
+}
+
+template <class T>
+Plan readConstant(Texturable& in, const TextureDescription&) {
+  const T value = findConstant<T>(in.own(), "value", 1);
+  return planOf<T>([=](Textures&) { return std::make_unique<ConstantTexture<T>>(value); });
+}
+
+template <class T>
+Plan readScale(Texturable& in, const TextureDescription&) {
+  const auto tex1 = findUse<T>(in, "tex1", 1), tex2 = findUse<T>(in, "tex2", 1);
+  return planOf<T>(
+      [=](Textures& t) { return std::make_unique<ScaleTexture<T>>(resolve(t, tex1), resolve(t, tex2)); });
+}
+
+template <class T>
+Plan readMix(Texturable& in, const TextureDescription&) {
+  const auto tex1 = findUse<T>(in, "tex1", 0), tex2 = findUse<T>(in, "tex2", 1);
+  const auto amount = in.findFloat("amount", 0.5f);
+  return planOf<T>([=](Textures& t) {
+    return std::make_unique<MixTexture<T>>(resolve(t, tex1), resolve(t, tex2), resolve(t, amount));
+  });
+}
+
+template <class T>
+Plan readBilerp(Texturable& in, const TextureDescription& d) {
+  const BilerpParams<T> p{.v00 = findConstant<T>(in.own(), "v00", 0),
+                          .v01 = findConstant<T>(in.own(), "v01", 1),
+                          .v10 = findConstant<T>(in.own(), "v10", 0),
+                          .v11 = findConstant<T>(in.own(), "v11", 1)};
+  const Mapping2d mapping = readMapping2d(in.own(), d.ctm->start);
+  return planOf<T>([=](Textures&) { return std::make_unique<BilerpTexture<T>>(mapping, p); });
+}
+
+Plan readUv(Texturable& in, const TextureDescription& d) {
+  const Mapping2d mapping = readMapping2d(in.own(), d.ctm->start);
+  return planOf<Rgb>([=](Textures&) { return std::make_unique<UvTexture>(mapping); });
+}
+
+template <class T>
+Plan readCheckerboard(Texturable& in, const TextureDescription& d) {
+  const auto tex1 = findUse<T>(in, "tex1", 1), tex2 = findUse<T>(in, "tex2", 0);
+  const int dimension = in.own().findInt("dimension", 2, Range::closed(2, 3));
+  if (dimension == 3) {
+    const Mapping3d mapping(d.ctm->start);
+    return planOf<T>([=](Textures& t) {
+      return std::make_unique<Checkerboard3dTexture<T>>(mapping, resolve(t, tex1), resolve(t, tex2));
+    });
+  }
+  constexpr std::array<std::string_view, 2> kModes = {"closedform", "none"};
+  const auto filter =
+      in.own().findChoice("aamode", kModes, 0) == 0 ? CheckerboardFilter::ClosedForm : CheckerboardFilter::None;
+  const Mapping2d mapping = readMapping2d(in.own(), d.ctm->start);
+  return planOf<T>([=](Textures& t) {
+    return std::make_unique<Checkerboard2dTexture<T>>(mapping, resolve(t, tex1), resolve(t, tex2), filter);
+  });
+}
+
+template <class T>
+Plan readDots(Texturable& in, const TextureDescription& d) {
+  const auto inside = findUse<T>(in, "inside", 1), outside = findUse<T>(in, "outside", 0);
+  const Mapping2d mapping = readMapping2d(in.own(), d.ctm->start);
+  return planOf<T>([=](Textures& t) {
+    return std::make_unique<DotsTexture<T>>(mapping, resolve(t, inside), resolve(t, outside));
+  });
+}
+
+template <class T>
+Plan readFbm(Texturable& in, const TextureDescription& d) {
+  const FractalParams p = readFractal(in.own());
+  const Mapping3d mapping(d.ctm->start);
+  return planOf<T>([=](Textures&) { return std::make_unique<FbmTexture<T>>(mapping, p); });
+}
+
+template <class T>
+Plan readWrinkled(Texturable& in, const TextureDescription& d) {
+  const FractalParams p = readFractal(in.own());
+  const Mapping3d mapping(d.ctm->start);
+  return planOf<T>([=](Textures&) { return std::make_unique<WrinkledTexture<T>>(mapping, p); });
+}
+
+template <class T>
+Plan readWindy(Texturable&, const TextureDescription& d) {
+  const Mapping3d mapping(d.ctm->start);
+  return planOf<T>([=](Textures&) { return std::make_unique<WindyTexture<T>>(mapping); });
+}
+
+Plan readMarble(Texturable& in, const TextureDescription& d) {
+  const MarbleParams p{.fractal = readFractal(in.own()),
+                       .scale = in.own().findFloat("scale", 1),
+                       .variation = in.own().findFloat("variation", 0.2f)};
+  const Mapping3d mapping(d.ctm->start);
+  return planOf<Rgb>([=](Textures&) { return std::make_unique<MarbleTexture>(mapping, p); });
+}
+
+template <class T>
+Plan readImagemap(Texturable& in, const TextureDescription& d) {
+  ParamReader& own = in.own();
+  const std::optional<std::filesystem::path> file = own.findInputFile("filename");
+  if (!file && !own.has(ParamKind::String, "filename")) own.error("parameter \"filename\" is missing");
+  constexpr std::array<std::string_view, 3> kWraps = {"repeat", "black", "clamp"};
+  ImageTexelParams texels;
+  texels.gamma = own.findBool("gamma", file && defaultGamma(*file));
+  texels.scale = own.findFloat("scale", texels.scale);
+  texels.wrap = std::array{WrapMode::Repeat, WrapMode::Black, WrapMode::Clamp}[own.findChoice("wrap", kWraps, 0)];
+  ImageFilterParams filter;
+  filter.trilinear = own.findBool("trilinear", filter.trilinear);
+  filter.maxAnisotropy = own.findFloat("maxanisotropy", filter.maxAnisotropy, Range::closed(1, 1024));
+  const Mapping2d mapping = readMapping2d(own, d.ctm->start);
+  const std::filesystem::path path = file.value_or("");
+  return planOf<T>([=](Textures& t) {
+    return std::make_unique<ImageTexture<T>>(mapping, t.pyramid<T>(path, texels), filter);
+  });
+}
+
+constexpr std::array<Plugin<ReadTexture>, 10> kFloatTextures = {{{"constant", readConstant<float>},
+                                                                 {"scale", readScale<float>},
+                                                                 {"mix", readMix<float>},
+                                                                 {"bilerp", readBilerp<float>},
+                                                                 {"checkerboard", readCheckerboard<float>},
+                                                                 {"dots", readDots<float>},
+                                                                 {"imagemap", readImagemap<float>},
+                                                                 {"fbm", readFbm<float>},
+                                                                 {"wrinkled", readWrinkled<float>},
+                                                                 {"windy", readWindy<float>}}};
+
+constexpr std::array<Plugin<ReadTexture>, 12> kRgbTextures = {{{"constant", readConstant<Rgb>},
+                                                               {"scale", readScale<Rgb>},
+                                                               {"mix", readMix<Rgb>},
+                                                               {"bilerp", readBilerp<Rgb>},
+                                                               {"uv", readUv},
+                                                               {"checkerboard", readCheckerboard<Rgb>},
+                                                               {"dots", readDots<Rgb>},
+                                                               {"imagemap", readImagemap<Rgb>},
+                                                               {"fbm", readFbm<Rgb>},
+                                                               {"wrinkled", readWrinkled<Rgb>},
+                                                               {"windy", readWindy<Rgb>},
+                                                               {"marble", readMarble}}};
+
+}  // namespace
+
+Textures::Textures(SceneDescription& scene, Diagnostics& diagnostics) : scene_(scene) {
+  plans_.resize(scene.textures.size());
+  builtFloats_.resize(scene.textures.size());
+  builtRgbs_.resize(scene.textures.size());
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    TextureDescription& d = scene.textures[i];
+    const bool isFloat = d.flavour == TextureFlavour::Float;
+    const std::string kind = std::string(isFloat ? "float" : "spectrum") + " texture \"" + d.name + "\"";
+    const auto* plugin = isFloat ? findPlugin<ReadTexture>(kFloatTextures, d, kind, diagnostics)
+                                 : findPlugin<ReadTexture>(kRgbTextures, d, kind, diagnostics);
+    if (plugin == nullptr) {  // with --lenient: what PBRT-v3 shows for a texture it does not have, the default
+      plans_[i] = isFloat ? planOf<float>([](Textures&) { return std::make_unique<ConstantTexture<float>>(1.0f); })
+                          : planOf<Rgb>([](Textures&) { return std::make_unique<ConstantTexture<Rgb>>(Rgb(1.0f)); });
+      continue;
+    }
+    if (d.ctm->isAnimated()) {
+      diagnostics.warning(d.location, kind + ": textures do not move; the transformation of the start time is used");
+    }
+    ParamReader in(d, diagnostics, kind);
+    Texturable texturable(in, d.scope);
+    plans_[i] = plugin->read(texturable, d);
+    in.reportUnused();
+  }
+}
+
+const FloatTexture* Textures::floatTexture(const TextureUse<float>& use) {
+  if (use.isConstant()) {
+    const FloatTexture*& constant = floatConstants_[use.constant];
+    if (constant == nullptr) {
+      built_.floats.push_back(std::make_unique<ConstantTexture<float>>(use.constant));
+      constant = built_.floats.back().get();
+    }
+    return constant;
+  }
+  const FloatTexture*& texture = builtFloats_[use.texture];
+  if (texture == nullptr) {
+    const TextureDescription& d = scene_.textures[use.texture];
+    auto made = builtAt(d.location, "texture \"" + d.name + "\"", [&] { return plans_[use.texture].makeFloat(*this); });
+    built_.floats.push_back(std::move(made));
+    builtFloats_[use.texture] = built_.floats.back().get();
+    ++builtCount_;
+  }
+  return builtFloats_[use.texture];
+}
+
+const RgbTexture* Textures::rgbTexture(const TextureUse<Rgb>& use) {
+  if (use.isConstant()) {
+    const RgbTexture*& constant = rgbConstants_[{use.constant.r, use.constant.g, use.constant.b}];
+    if (constant == nullptr) {
+      built_.rgbs.push_back(std::make_unique<ConstantTexture<Rgb>>(use.constant));
+      constant = built_.rgbs.back().get();
+    }
+    return constant;
+  }
+  if (builtRgbs_[use.texture] == nullptr) {
+    const TextureDescription& d = scene_.textures[use.texture];
+    auto made = builtAt(d.location, "texture \"" + d.name + "\"", [&] { return plans_[use.texture].makeRgb(*this); });
+    built_.rgbs.push_back(std::move(made));
+    builtRgbs_[use.texture] = built_.rgbs.back().get();
+    ++builtCount_;
+  }
+  return builtRgbs_[use.texture];
+}
+
+template <class T>
+std::shared_ptr<const MipMap<T>> Textures::pyramid(const std::filesystem::path& file, const ImageTexelParams& params) {
+  auto& cache = [this]() -> PyramidCache<T>& {
+    if constexpr (std::is_same_v<T, float>) {
+      return floatPyramids_;
+    } else {
+      return rgbPyramids_;
+    }
+  }();
+  std::shared_ptr<const MipMap<T>>& entry = cache[{file, params.gamma, params.scale, params.wrap}];
+  if (entry == nullptr) entry = makeTexturePyramid<T>(readImage(file), params);
+  return entry;
+}
+
+template std::shared_ptr<const MipMap<float>> Textures::pyramid<float>(const std::filesystem::path&, const ImageTexelParams&);
+template std::shared_ptr<const MipMap<Rgb>> Textures::pyramid<Rgb>(const std::filesystem::path&, const ImageTexelParams&);
+
+}  // namespace pbrtmedia

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/world_builder.h"
+
+#include "construct/plugins.h"
+
+namespace pbrtmedia {
+namespace {
+
+constexpr std::uint64_t kMaxInstances = 1u << 28;  // flattened placements; far more than memory has room for
+
+std::string contextOf(const ShapeDescription& shape) { return "Shape \"" + shape.type + "\""; }
+
+}  // namespace
+
+WorldBuilder::WorldBuilder(SceneDescription& scene, Textures& textures, Materials& materials, Diagnostics& diagnostics)
+    : scene_(scene), textures_(textures), materials_(materials), diagnostics_(diagnostics) {}
+
+void WorldBuilder::read(bool quick) {
+  for (MediumDescription& medium : scene_.media) mediumPlans_.push_back(readMedium(medium, diagnostics_));
+  for (LightDescription& light : scene_.lights) lights_.push_back(readLight(light, quick, diagnostics_));
+  for (Entity& light : scene_.areaLights) areaLights_.push_back(readAreaLight(light, quick, diagnostics_));
+  media_.resize(scene_.media.size());
+  markUsedObjects();
+  readShapes();
+}
+
+void WorldBuilder::readShapes() {
+  for (ShapeDescription& shape : scene_.shapes) {
+    ParamReader in(shape, diagnostics_, contextOf(shape));
+    ShapeRead read;
+    read.plan = readShape(shape, in, diagnostics_);
+    read.material = materials_.readForShape(shape, in, diagnostics_);
+    if (read.plan) in.reportUnused();
+    if (shape.areaLight != kNone && shape.ctm->isAnimated()) {
+      diagnostics_.warning(shape.location, contextOf(shape) + ": area lights on moving shapes are ignored, as in PBRT-v3");
+    } else if (shape.areaLight != kNone && shape.object != kNone) {
+      diagnostics_.warning(shape.location,
+                           contextOf(shape) + ": an area light in an object is seen but lights nothing, as in PBRT-v3");
+    }
+    shapes_.push_back(std::move(read));
+  }
+}
+
+void WorldBuilder::markUsedObjects() {
+  objectUsed_.assign(scene_.objects.size(), false);
+  std::vector<std::uint32_t> pending;
+  for (const InstanceDescription& instance : scene_.instances) {
+    if (instance.parent == kNone) pending.push_back(instance.object);
+  }
+  std::uint64_t placements = 0;
+  while (!pending.empty()) {
+    const std::uint32_t object = pending.back();
+    pending.pop_back();
+    if (objectUsed_[object]) continue;
+    objectUsed_[object] = true;
+    for (const std::uint32_t inner : scene_.objects[object].instances) pending.push_back(scene_.instances[inner].object);
+  }
+  for (const InstanceDescription& instance : scene_.instances) {
+    if (instance.parent == kNone) placements += scene_.objects[instance.object].placedShapes;
+  }
+  if (placements > kMaxInstances) {
+    diagnostics_.error(scene_.worldEnd, "nested objects multiply to " + std::to_string(placements) +
+                                            " placed shapes, expected at most " + std::to_string(kMaxInstances));
+  }
+}
+
+void WorldBuilder::buildMedia(SceneBuilder& builder) {
+  std::vector<bool> used(scene_.media.size(), false);
+  const auto use = [&](const MediumUse& m) {
+    if (m.index != kNone) used[static_cast<std::size_t>(m.index)] = true;
+  };
+  for (const ShapeDescription& shape : scene_.shapes) {
+    if (shape.object != kNone && !objectUsed_[static_cast<std::size_t>(shape.object)]) continue;
+    use(shape.media->inside);
+    use(shape.media->outside);
+  }
+  use(scene_.cameraMedium);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) {
+      report_.push_back("medium \"" + scene_.media[i].name + "\": not used, left out");
+      continue;
+    }
+    usesMedia_ = true;
+    if (!withMedia_) continue;
+    media_[i] = builder.own((*mediumPlans_[i])());
+    report_.push_back("medium \"" + scene_.media[i].name + "\": " + media_[i]->describe());
+  }
+}
+
+void WorldBuilder::addAreaLights(const ShapeDescription& shape, Primitive& primitive, SceneBuilder& builder) {
+  if (shape.areaLight == kNone || shape.ctm->isAnimated()) return;
+  const auto& params = areaLights_[static_cast<std::size_t>(shape.areaLight)];
+  if (!params || params->radiance.isBlack()) return;
+  const std::uint32_t count = primitive.shape->primitiveCount();
+  primitive.areaLights.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    primitive.areaLights.push_back(
+        builder.own(std::make_unique<DiffuseAreaLight>(*primitive.shape, i, PrimitiveId{}, *params)));
+  }
+}
+
+Primitive WorldBuilder::buildPrimitive(std::size_t index, SceneBuilder& builder) {
+  const ShapeDescription& shape = scene_.shapes[index];
+  const ShapeRead& read = shapes_[index];
+  Primitive primitive;
+  primitive.shape =
+      builder.own(builtAt(shape.location, contextOf(shape), [&] { return read.plan->make(diagnostics_); }));
+  primitive.material = builtAt(shape.location, contextOf(shape), [&] { return materials_.build(read.material); });
+  primitive.media = {mediumOf(shape.media->inside), mediumOf(shape.media->outside)};
+  primitive.alpha = textures_.floatTexture(read.plan->alpha);
+  primitive.shadowAlpha = textures_.floatTexture(read.plan->shadowAlpha);
+  addAreaLights(shape, primitive, builder);
+  return primitive;
+}
+
+void WorldBuilder::placeShapes(SceneBuilder& builder) {
+  for (std::size_t i = 0; i < scene_.shapes.size(); ++i) {
+    const ShapeDescription& shape = scene_.shapes[i];
+    if (shape.object != kNone || !shapes_[i].plan) continue;
+    Primitive primitive = buildPrimitive(i, builder);
+    if (primitive.isInvisible()) continue;
+    if (!shape.ctm->isAnimated()) {
+      builder.addPrimitive(std::move(primitive));
+      continue;
+    }
+    std::vector<Primitive> alone;
+    alone.push_back(std::move(primitive));
+    builder.addInstance(builder.addObject(std::move(alone)),
+                        AnimatedTransform(shape.ctm->start, scene_.transformStartTime, shape.ctm->end, scene_.transformEndTime));
+  }
+}
+
+void WorldBuilder::placeObjects(SceneBuilder& builder) {
+  objectNumber_.resize(scene_.objects.size());
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+    if (!objectUsed_[i]) {
+      ++left;
+      continue;
+    }
+    std::vector<Primitive> primitives;
+    for (const std::uint32_t shape : scene_.objects[i].shapes) {
+      if (!shapes_[shape].plan) continue;
+      if (scene_.shapes[shape].ctm->isAnimated()) {
+        throw SceneError(scene_.shapes[shape].location, contextOf(scene_.shapes[shape]) +
+                                                            ": a moving shape cannot stand in an object; move the instance");
+      }
+      Primitive primitive = buildPrimitive(shape, builder);
+      if (!primitive.isInvisible()) primitives.push_back(std::move(primitive));
+    }
+    objectNumber_[i] = builder.addObject(std::move(primitives));
+  }
+  if (left > 0) report_.push_back(std::to_string(left) + " objects are never placed: left out");
+  for (const InstanceDescription& instance : scene_.instances) {
+    if (instance.parent == kNone) placeInstance(builder, instance, TransformPair{});
+  }
+}
+
+void WorldBuilder::placeInstance(SceneBuilder& builder, const InstanceDescription& instance, const TransformPair& outer) {
+  const TransformPair place{outer.start * instance.ctm->start, outer.end * instance.ctm->end};
+  if (place.start.isSingular() || place.end.isSingular()) {
+    throw SceneError(instance.location, "ObjectInstance: the transformation is singular: it has no inverse");
+  }
+  builder.addInstance(objectNumber_[instance.object],
+                      AnimatedTransform(place.start, scene_.transformStartTime, place.end, scene_.transformEndTime));
+  for (const std::uint32_t inner : scene_.objects[instance.object].instances) {
+    placeInstance(builder, scene_.instances[inner], place);
+  }
+}
+
+std::unique_ptr<Scene> WorldBuilder::build(bool withMedia) {
+  withMedia_ = withMedia;
+  SceneBuilder builder;
+  buildMedia(builder);
+  placeShapes(builder);
+  placeObjects(builder);
+  for (const std::optional<LightPlan>& light : lights_) {
+    if (light) builder.addLight((*light)());
+  }
+  describe(textures_);
+
+  Textures::Built built = textures_.takeBuilt();
+  for (auto& texture : built.floats) builder.own(std::move(texture));
+  for (auto& texture : built.rgbs) builder.own(std::move(texture));
+  for (auto& material : materials_.takeBuilt()) builder.own(std::move(material));
+  return builder.finish();
+}
+
+void WorldBuilder::describe(const Textures& textures) {
+  const auto line = [&](const std::string& what, std::size_t built, std::size_t defined) {
+    if (defined > 0) report_.push_back(what + ": " + std::to_string(built) + " built of " + std::to_string(defined) + " defined");
+  };
+  line("textures", textures.builtCount(), textures.definedCount());
+  line("materials", materials_.builtCount(), materials_.definedCount());
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "construct/lights.h"
+#include "construct/materials.h"
+#include "construct/media.h"
+#include "construct/shapes.h"
+#include "construct/textures.h"
+#include "integrators/scene_builder.h"
+#include "scene/description.h"
+
+namespace pbrtmedia {
+
+/// The world block: shapes, media, lights, objects and instances. `read` checks everything and builds nothing heavy;
+/// `build` makes what is referred to. The references must outlive it.
+class WorldBuilder {
+ public:
+  WorldBuilder(SceneDescription& scene, Textures& textures, Materials& materials, Diagnostics& diagnostics);
+
+  /// Problems go to the diagnostics.
+  void read(bool quick);
+  /// After `read` without errors. `withMedia`: false leaves media out (the integrator cannot see them). Throws
+  /// SceneError for files that turn out to be broken.
+  std::unique_ptr<Scene> build(bool withMedia);
+
+  /// The built medium of that number; null for vacuum or one that nothing uses.
+  const Medium* medium(std::int32_t index) const {
+    return index == kNone ? nullptr : media_[static_cast<std::size_t>(index)];
+  }
+  bool usesMedia() const { return usesMedia_; }
+  std::vector<std::string> report() const { return report_; }
+
+ private:
+  struct ShapeRead {
+    std::optional<ShapePlan> plan;
+    Materials::Use material;
+  };
+  void readShapes();
+  void markUsedObjects();
+  void buildMedia(SceneBuilder& builder);
+  Primitive buildPrimitive(std::size_t shape, SceneBuilder& builder);
+  void addAreaLights(const ShapeDescription& shape, Primitive& primitive, SceneBuilder& builder);
+  void placeShapes(SceneBuilder& builder);
+  void placeObjects(SceneBuilder& builder);
+  void placeInstance(SceneBuilder& builder, const InstanceDescription& instance, const TransformPair& outer);
+  void describe(const Textures& textures);
+  const Medium* mediumOf(const MediumUse& use) const { return withMedia_ ? medium(use.index) : nullptr; }
+
+  SceneDescription& scene_;
+  Textures& textures_;
+  Materials& materials_;
+  Diagnostics& diagnostics_;
+  std::vector<ShapeRead> shapes_;
+  std::vector<std::optional<LightPlan>> lights_;
+  std::vector<std::optional<DiffuseAreaLight::Params>> areaLights_;
+  std::vector<std::optional<MediumPlan>> mediumPlans_;
+  std::vector<const Medium*> media_;
+  std::vector<bool> objectUsed_;
+  std::vector<std::uint32_t> objectNumber_;
+  bool usesMedia_ = false, withMedia_ = true;
+  std::vector<std::string> report_;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "main/options.h"
+
+#include <glog/logging.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <map>
+
+#include "base/diagnostics.h"
+
+namespace pbrtmedia {
+namespace {
+
+// Words that PBRT-v3 accepts with one dash as well.
+constexpr std::string_view kLongNames[] = {
+    "nthreads", "outfile",     "cropwindow",  "quick",  "quiet",   "cat",     "toply",
+    "logdir",   "logtostderr", "minloglevel", "v",      "help",    "spp",     "seed",
+    "stats",    "progress",    "time",        "strict", "lenient", "verbose", "tile-size"};
+
+/// "-quick" and "-nthreads=2" become "--quick" and "--nthreads=2"; numbers and file names stay.
+std::string normalised(const std::string& word) {
+  if (word.size() < 2 || word[0] != '-' || word[1] == '-') return word;
+  const std::string name = word.substr(1, word.find('=') - 1);
+  if (name == "h") return "--help";
+  return std::find(std::begin(kLongNames), std::end(kLongNames), name) != std::end(kLongNames) ? "-" + word
+                                                                                               : word;
+}
+
+std::string shellQuoted(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./,:@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
+
+OptionsOutcome readOptions(int argc, const char* const* argv) {
+  Options options;
+  CLI::App app{
+      "Renders PBRT-v3 scene files.\n"
+      "Without a file, or with '-', the scene is read from standard input.",
+      "pbrt"};
+  app.set_help_flag("--help", "print this text");
+  app.get_formatter()->column_width(34);
+
+  std::vector<std::string> scenes;
+  std::vector<float> crop;
+  std::string outfile, stats, progress = "auto", logDirectory;
+  int minLogLevel = 0, verbosity = 0;
+  bool logToStderr = false;
+
+  app.add_option("scene", scenes, "scene files, read in order with one continuous state")->type_name("FILE");
+  const std::string render = "Rendering";
+  app.add_option("--nthreads", options.threads, "worker threads; 0 (default): one per processor")
+      ->group(render);
+  app.add_option("--outfile", outfile, "image file; overrides the scene's (.exr .png .pfm .tga)")
+      ->group(render);
+  app.add_option("--cropwindow", crop, "render only this part: fractions of the image, y down")
+      ->expected(4)
+      ->type_name("X0 X1 Y0 Y1")
+      ->group(render);
+  app.add_option("--spp", options.samplesPerPixel, "samples per pixel instead of the scene's")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40))
+      ->type_name("N")
+      ->group(render);
+  app.add_option("--seed", options.seed, "seed of all random numbers (default 0)")
+      ->type_name("N")
+      ->group(render);
+  app.add_option("--time", options.timeLimit, "stop rendering after this many seconds, with a valid image")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS")
+      ->group(render);
+  app.add_flag("--quick", options.quick, "a quarter of the resolution each way, one sample per pixel")
+      ->group(render);
+  app.add_option("--tile-size", options.tileSize,
+                 "edge of the square of pixels one thread takes (default 16)")
+      ->check(CLI::Range(1, 4096))
+      ->type_name("PIXELS")
+      ->group(render);
+
+  const std::string checks = "Checks";
+  app.add_flag("--lenient", options.lenient, "unknown parameters and plugins are warnings, as in PBRT-v3")
+      ->group(checks);
+  app.add_flag("--strict", options.strict,
+               "exit with 2 when samples were dropped or a density bound was violated")
+      ->group(checks);
+
+  const std::string reports = "Reports";
+  app.add_flag("--quiet", options.quiet, "no progress, notes or warnings; errors stay")->group(reports);
+  app.add_flag("--verbose", options.verbose, "say what was built, what was left out and what that saved")
+      ->group(reports);
+  app.add_option("--progress", progress,
+                 "auto (default): a live line on a terminal; plain: a line now and then; none")
+      ->check(CLI::IsMember({"auto", "plain", "none"}))
+      ->type_name("MODE")
+      ->group(reports);
+  app.add_option("--stats", stats, "write times, counters and memory as JSON")
+      ->type_name("FILE.json")
+      ->group(reports);
+
+  const std::string other = "Other";
+  app.add_flag("--cat", options.cat, "print the scene in a normal form; render nothing")->group(other);
+  app.add_flag("--toply", options.toPly, "as --cat, with large meshes written to PLY files")->group(other);
+  app.add_option("--logdir", logDirectory, "folder for log files")->group(other);
+  app.add_flag("--logtostderr", logToStderr, "log to standard error instead of files")->group(other);
+  app.add_option("--minloglevel", minLogLevel, "0 info, 1 warning, 2 error, 3 fatal")
+      ->check(CLI::Range(0, 3))
+      ->group(other);
+  app.add_option("--v", verbosity, "verbosity of the log")->group(other);
+
+  std::vector<std::string> words;
+  for (int i = 1; i < argc; ++i) words.push_back(normalised(argv[i]));
+  for (int i = 0; i < argc; ++i) options.commandLine += (i > 0 ? " " : "") + shellQuoted(argv[i]);
+  try {
+    std::vector<std::string> reversed(words.rbegin(), words.rend());
+    app.parse(reversed);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return {std::nullopt, 0};
+  } catch (const CLI::ParseError& e) {
+    std::cerr << "pbrt: error: " << e.what();
+    for (const std::string& word : words) {
+      const std::string name = word.substr(0, word.find('='));
+      if (name.size() > 2 && name.compare(0, 2, "--") == 0 &&
+          std::find(std::begin(kLongNames), std::end(kLongNames), name.substr(2)) == std::end(kLongNames)) {
+        std::cerr << suggestion(name.substr(2), kLongNames);
+        break;
+      }
+    }
+    std::cerr << "\nRun 'pbrt --help' for all options.\n";
+    return {std::nullopt, 1};
+  }
+
+  for (const std::string& scene : scenes) options.scenes.emplace_back(scene);
+  if (options.scenes.empty()) options.scenes.emplace_back("-");
+  if (!outfile.empty()) options.outfile = outfile;
+  if (!stats.empty()) options.statsFile = stats;
+  if (!crop.empty()) {
+    std::array<float, 4> window{};
+    std::copy(crop.begin(), crop.end(), window.begin());
+    for (const float edge : window) {
+      if (!(edge >= 0 && edge <= 1)) {
+        std::cerr << "pbrt: error: --cropwindow: found " << edge << ", expected fractions in [0, 1]\n";
+        return {std::nullopt, 1};
+      }
+    }
+    options.cropWindow = window;
+  }
+  options.progress = progress == "none"    ? ProgressMode::None
+                     : progress == "plain" ? ProgressMode::Plain
+                                           : ProgressMode::Auto;
+
+  FLAGS_minloglevel = minLogLevel;
+  FLAGS_v = verbosity;
+  FLAGS_logtostderr = logToStderr || logDirectory.empty();
+  if (!logDirectory.empty()) FLAGS_log_dir = logDirectory;
+  if (!logToStderr && logDirectory.empty() && minLogLevel == 0) FLAGS_minloglevel = google::GLOG_ERROR;
+  return {std::move(options), 0};
+}
+
+}  // namespace pbrtmedia

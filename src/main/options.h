@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pbrtmedia {
+
+enum class ProgressMode { Auto, Plain, None };
+
+/// The command line of `pbrt`, checked.
+struct Options {
+  std::vector<std::filesystem::path> scenes;  ///< "-" alone: standard input
+  unsigned threads = 0;                       ///< 0: one per processor
+  std::optional<std::filesystem::path> outfile;
+  std::optional<std::array<float, 4>> cropWindow;  ///< x0 x1 y0 y1, fractions
+  bool quick = false;
+  bool quiet = false;
+  bool cat = false;
+  bool toPly = false;
+  bool lenient = false;
+  bool strict = false;
+  bool verbose = false;
+  std::optional<std::int64_t> samplesPerPixel;
+  std::uint64_t seed = 0;
+  std::optional<std::filesystem::path> statsFile;
+  ProgressMode progress = ProgressMode::Auto;
+  std::optional<double> timeLimit;  ///< seconds of rendering
+  int tileSize = 16;
+  std::string commandLine;  ///< as typed, for the image header
+};
+
+/// What reading the command line led to: options to run with, or an exit status after help or an error was
+/// printed.
+struct OptionsOutcome {
+  std::optional<Options> options;
+  int exitStatus = 0;
+};
+
+/// Reads PBRT-v3's options (`--name value`, `--name=value`, single dash too) and our own. Prints help to
+/// standard output and errors to standard error, nothing else; throws nothing.
+OptionsOutcome readOptions(int argc, const char* const* argv);
+
+}  // namespace pbrtmedia

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "main/render.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+
+#include "base/diagnostics.h"
+#include "base/parallel.h"
+#include "construct/construct.h"
+#include "image/image.h"
+#include "integrators/render_loop.h"
+#include "main/progress.h"
+#include "main/statistics_report.h"
+#include "main/stop_signal.h"
+#include "main/stopwatch.h"
+#include "main/version.h"
+#include "main/warnings.h"
+#include "scene/parser.h"
+#include "scene/print.h"
+
+namespace pbrtmedia {
+namespace {
+
+constexpr int kExitBadInput = 1;
+constexpr int kExitStrict = 2;
+
+/// Prints what has been collected; warnings and notes only when not --quiet.
+void show(const Diagnostics& diagnostics, bool quiet) {
+  if (!quiet) {
+    std::cerr << diagnostics.format();
+    return;
+  }
+  Diagnostics errors;
+  for (const Diagnostic& d : diagnostics.all()) {
+    if (d.severity == Severity::Error) errors.add(d.severity, d.location, d.message);
+  }
+  std::cerr << errors.format();
+}
+
+std::string sceneNames(const Options& options) {
+  std::string names;
+  for (const auto& scene : options.scenes) names += (names.empty() ? "" : " ") + scene.string();
+  return names;
+}
+
+int printScenes(const Options& options) {
+  Diagnostics diagnostics;
+  diagnostics.lenient = options.lenient;
+  PrintOptions print;
+  print.meshesToPly = options.toPly;
+  if (const char* prefix = std::getenv("PLY_PREFIX")) print.plyPrefix = prefix;
+  printFiles(options.scenes, std::cout, diagnostics, print);
+  std::cout.flush();
+  show(diagnostics, options.quiet);
+  return diagnostics.hasErrors() || !std::cout ? kExitBadInput : 0;
+}
+
+/// Samples per pixel that the image holds: a mean when it was stopped early.
+std::string samplesPerPixelText(const RenderStatistics& s) {
+  if (!s.interrupted || s.samplesPlanned == 0) return std::to_string(s.samplesPerPixel);
+  std::ostringstream mean;
+  mean << static_cast<double>(s.samplesTaken) / static_cast<double>(s.samplesPlanned) *
+              static_cast<double>(s.samplesPerPixel);
+  return mean.str();
+}
+
+Image withHeader(Image image, const RenderStatistics& statistics, const Options& options, std::uint64_t sceneHash) {
+  std::ostringstream hash, seconds;
+  hash << std::hex << sceneHash;
+  seconds << statistics.render.wall;
+  image.metadata["command"] = options.commandLine;
+  image.metadata["version"] = std::string("pbrt-media ") + kVersion;
+  image.metadata["seed"] = std::to_string(options.seed);
+  image.metadata["samples"] = samplesPerPixelText(statistics);
+  image.metadata["seconds"] = seconds.str();
+  image.metadata["sceneHash"] = hash.str();
+  return image;
+}
+
+RenderResult renderImage(const Construction& scene, const Options& options, const StopSignal& stop) {
+  RenderOptions loop;
+  loop.seed = options.seed;
+  loop.tileSize = options.tileSize;
+  loop.pixelBounds = scene.pixelBounds;
+  loop.stop = &stop.flag();
+  if (options.timeLimit) loop.timeLimit = *options.timeLimit;
+  ProgressLine line(options.progress, options.quiet, scene.outfile.filename().string());
+  loop.progress = [&](const RenderProgress& p) {
+    line.update(static_cast<std::int64_t>(p.samplesDone), static_cast<std::int64_t>(p.samplesTotal),
+                options.timeLimit.value_or(0));
+  };
+  RenderResult result = renderFilm(*scene.camera, *scene.sampler, *scene.integrator, *scene.film, loop);
+  line.finish(static_cast<std::int64_t>(result.samplesTaken), static_cast<std::int64_t>(result.samplesTotal));
+  return result;
+}
+
+/// One world: build, render, write. Sets `status` and returns the numbers.
+RenderStatistics renderWorld(SceneDescription& description, const Options& options, const PhaseTime& parseTime, int& status) {
+  RenderStatistics statistics;
+  statistics.scene = sceneNames(options);
+  statistics.seed = options.seed;
+  statistics.threads = threadCount();
+  statistics.parse = parseTime;
+
+  const Stopwatch constructing;
+  Diagnostics diagnostics;
+  diagnostics.lenient = options.lenient;
+  const ConstructOptions build{.outfile = options.outfile,
+                               .cropWindow = options.cropWindow,
+                               .quick = options.quick,
+                               .samplesPerPixel = options.samplesPerPixel,
+                               .seed = options.seed};
+  const std::uint64_t sceneHash = description.textHash;
+  std::optional<Construction> scene = construct(description, build, diagnostics);
+  show(diagnostics, options.quiet);
+  if (!scene) {
+    status = kExitBadInput;
+    return statistics;
+  }
+  description = {};  // what was not taken is not needed any more
+  statistics.construct = constructing.elapsed();
+  statistics.outfile = scene->outfile.string();
+  statistics.samplesPerPixel = scene->sampler->samplesPerPixel();
+  if (options.verbose) {
+    for (const std::string& line : scene->report) std::cerr << "  " << line << '\n';
+  }
+
+  const StopSignal stop;
+  const Stopwatch rendering;
+  const RenderResult result = renderImage(*scene, options, stop);
+  statistics.render = rendering.elapsed();
+  statistics.samplesTaken = static_cast<std::int64_t>(result.samplesTaken);
+  statistics.samplesPlanned = static_cast<std::int64_t>(result.samplesTotal);
+  statistics.interrupted = result.interrupted;
+  statistics.counters = result.counters;
+
+  const Stopwatch writing;
+  writeImage(scene->outfile, withHeader(scene->film->develop(), statistics, options, sceneHash));
+  statistics.write = writing.elapsed();
+  statistics.peakMemory = peakMemoryBytes();
+
+  std::cerr << describeFaults(result, options);
+  if (!options.quiet) std::cerr << formatStatistics(statistics);
+  if (options.strict && (result.counters.droppedTotal() > 0 || result.counters.boundViolations > 0)) status = kExitStrict;
+  return statistics;
+}
+
+}  // namespace
+
+int runPbrt(const Options& options) {
+  if (options.cat || options.toPly) return printScenes(options);
+  const ThreadLimit threads(options.threads);
+
+  const Stopwatch parsing;
+  Diagnostics diagnostics;
+  diagnostics.lenient = options.lenient;
+  std::vector<SceneDescription> worlds = parseFiles(options.scenes, diagnostics);
+  const PhaseTime parseTime = parsing.elapsed();
+  if (worlds.empty() && !diagnostics.hasErrors()) {
+    diagnostics.error({}, "no WorldBegin … WorldEnd block in " + sceneNames(options) + ": nothing to render");
+  }
+  show(diagnostics, options.quiet);
+  if (diagnostics.hasErrors()) return kExitBadInput;
+
+  int status = 0;
+  std::vector<RenderStatistics> all;
+  for (SceneDescription& world : worlds) {
+    all.push_back(renderWorld(world, options, all.empty() ? parseTime : PhaseTime{}, status));
+    if (status == kExitBadInput || all.back().interrupted) break;
+  }
+  if (options.statsFile && status != kExitBadInput) writeStatistics(*options.statsFile, all);
+  return status;
+}
+
+}  // namespace pbrtmedia

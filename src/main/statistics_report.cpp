@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "main/statistics_report.h"
+
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+#include "base/files.h"
+#include "main/progress.h"
+#include "main/version.h"
+
+namespace pbrtmedia {
+namespace {
+
+constexpr std::array<const char*, static_cast<std::size_t>(DropCause::kCount)> kDropNames = {"nan", "infinite",
+                                                                                              "negative"};
+
+nlohmann::ordered_json toJson(const PhaseTime& time) { return {{"wall", time.wall}, {"cpu", time.cpu}}; }
+
+nlohmann::ordered_json toJson(const RenderCounters& c) {
+  nlohmann::ordered_json dropped;
+  for (std::size_t i = 0; i < kDropNames.size(); ++i) dropped[kDropNames[i]] = c.dropped[i];
+  return {{"cameraSamples", c.cameraSamples},
+          {"rays", c.rays},
+          {"shadowRays", c.shadowRays},
+          {"densityLookups", c.densityLookups},
+          {"nullCollisions", c.nullCollisions},
+          {"mediumScatterings", c.mediumScatterings},
+          {"surfaceScatterings", c.surfaceScatterings},
+          {"boundViolations", c.boundViolations},
+          {"worstBoundRatio", c.worstBoundRatio},
+          {"mediumMismatches", c.mediumMismatches},
+          {"boundaryRepairs", c.boundaryRepairs},
+          {"droppedSamples", dropped}};
+}
+
+nlohmann::ordered_json toJson(const RenderStatistics& s) {
+  return {{"scene", s.scene},
+          {"outfile", s.outfile},
+          {"seed", s.seed},
+          {"samplesPerPixel", s.samplesPerPixel},
+          {"samplesTaken", s.samplesTaken},
+          {"samplesPlanned", s.samplesPlanned},
+          {"threads", s.threads},
+          {"interrupted", s.interrupted},
+          {"seconds",
+           {{"parse", toJson(s.parse)},
+            {"construct", toJson(s.construct)},
+            {"render", toJson(s.render)},
+            {"write", toJson(s.write)}}},
+          {"counters", toJson(s.counters)},
+          {"peakMemoryBytes", s.peakMemory}};
+}
+
+double perSample(std::uint64_t count, const RenderStatistics& s) {
+  return s.samplesTaken > 0 ? static_cast<double>(count) / static_cast<double>(s.samplesTaken) : 0;
+}
+
+}  // namespace
+
+std::string formatStatistics(const RenderStatistics& s) {
+  const RenderCounters& c = s.counters;
+  std::ostringstream os;
+  os.precision(3);
+  const auto phase = [](const PhaseTime& t) { return formatDuration(t.wall) + " (cpu " + formatDuration(t.cpu) + ")"; };
+  os << "  time      parse " << phase(s.parse) << ", construct " << phase(s.construct) << ", render " << phase(s.render)
+     << ", write " << phase(s.write) << '\n';
+  if (s.samplesTaken > 0) {
+    os << "  samples   " << formatCount(static_cast<double>(s.samplesTaken)) << ", "
+       << 1e6 * s.render.cpu / static_cast<double>(s.samplesTaken) << " us of CPU each\n";
+  }
+  os << "  rays      " << formatCount(static_cast<double>(c.rays)) << " (" << perSample(c.rays, s) << " per sample), shadow "
+     << formatCount(static_cast<double>(c.shadowRays)) << '\n';
+  if (c.densityLookups > 0) {
+    os << "  media     " << formatCount(static_cast<double>(c.densityLookups)) << " density lookups ("
+       << perSample(c.densityLookups, s) << " per sample), " << formatCount(static_cast<double>(c.nullCollisions))
+       << " null collisions, " << formatCount(static_cast<double>(c.mediumScatterings)) << " scatterings\n";
+  }
+  os << "  memory    " << formatCount(static_cast<double>(s.peakMemory)) << "B at most\n";
+  return os.str();
+}
+
+void writeStatistics(const std::filesystem::path& path, const std::vector<RenderStatistics>& renders) {
+  nlohmann::ordered_json root = {{"version", kVersion}, {"renders", nlohmann::ordered_json::array()}};
+  for (const RenderStatistics& s : renders) root["renders"].push_back(toJson(s));
+  writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
+    std::ofstream out(temporary);
+    out << root.dump(2) << '\n';
+    out.close();
+    if (!out) throw std::runtime_error("cannot write " + temporary.string());
+  });
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/statistics.h"
+#include "main/stopwatch.h"
+
+namespace pbrtmedia {
+
+/// What one render cost and met with.
+struct RenderStatistics {
+  std::string scene;    ///< file names as given
+  std::string outfile;
+  std::uint64_t seed = 0;
+  std::int64_t samplesPerPixel = 0;  ///< asked for
+  std::int64_t samplesTaken = 0;     ///< camera samples of the whole film
+  std::int64_t samplesPlanned = 0;
+  unsigned threads = 0;
+  bool interrupted = false;
+  PhaseTime parse, construct, render, write;
+  RenderCounters counters;
+  std::size_t peakMemory = 0;  ///< bytes
+};
+
+/// The numbers as text for people: a few lines, most telling first.
+std::string formatStatistics(const RenderStatistics& statistics);
+/// Writes {"version": …, "renders": [ … ]} atomically; keys in docs/statistics.md.
+void writeStatistics(const std::filesystem::path& path, const std::vector<RenderStatistics>& renders);
+
+}  // namespace pbrtmedia

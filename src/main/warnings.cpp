@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "main/warnings.h"
+
+#include <array>
+#include <sstream>
+
+namespace pbrtmedia {
+namespace {
+
+constexpr std::array<const char*, static_cast<std::size_t>(DropCause::kCount)> kCauses = {
+    "not a number", "infinite", "of negative luminance"};
+
+void describeDropped(const RenderResult& result, const Options& options, std::ostream& os) {
+  const RenderCounters& c = result.counters;
+  if (c.droppedTotal() == 0) return;
+  os << "pbrt: WARNING: " << c.droppedTotal() << " of " << result.samplesTaken << " samples were dropped:";
+  for (std::size_t i = 0; i < kCauses.size(); ++i) {
+    if (c.dropped[i] > 0) os << ' ' << c.dropped[i] << ' ' << kCauses[i];
+  }
+  os << ".\n";
+  for (const DroppedSample& d : result.dropped) {
+    os << "  pixel " << d.pixel.x << ' ' << d.pixel.y << ", sample " << d.sample << ", seed " << options.seed << ": "
+       << kCauses[static_cast<std::size_t>(d.cause)] << '\n';
+  }
+}
+
+}  // namespace
+
+std::string describeFaults(const RenderResult& result, const Options& options) {
+  std::ostringstream os;
+  describeDropped(result, options, os);
+  const RenderCounters& c = result.counters;
+  if (c.boundViolations > 0) {
+    os << "pbrt: WARNING: " << c.boundViolations << " density lookups exceeded their bound, the worst by a factor of "
+       << c.worstBoundRatio << ".\n";
+  }
+  if (c.mediumMismatches > 0 && !options.quiet) {
+    os << "pbrt: warning: " << c.mediumMismatches
+       << " boundary crossings name another medium than the ray was in; where boundaries overlap, give the media "
+          "\"string overlap\" \"add\".\n";
+    for (const MediumMismatch& m : result.mismatches) os << "  " << m.toString() << '\n';
+  }
+  return os.str();
+}
+
+}  // namespace pbrtmedia
