@@ -14,8 +14,8 @@ namespace pbrtmedia {
 class GoniometricLight final : public Light {
  public:
   struct Params {
-    Rgb intensity{1.0f};       ///< "I" times "scale", W/sr
-    std::optional<Image> map;  ///< "mapname", read without gamma decoding; none: factor 1
+    Rgb intensity{1.0f};                      ///< "I" times "scale", W/sr
+    std::optional<Image> map = std::nullopt;  ///< "mapname", read without gamma decoding; none: factor 1
   };
   /// Throws std::invalid_argument when the transform has no inverse or the map is unusable (see LightMap).
   GoniometricLight(const Transform& worldFromLight, const Params& params);

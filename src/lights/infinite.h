@@ -22,9 +22,10 @@ namespace pbrtmedia {
 class InfiniteLight final : public Light {
  public:
   struct Params {
-    Rgb radiance{1.0f};        ///< "L" times "scale", W/(m² sr)
-    std::optional<Image> map;  ///< "mapname", read without gamma decoding; multiplies the radiance
-    int samples = 1;           ///< "samples"
+    Rgb radiance{1.0f};  ///< "L" times "scale", W/(m² sr)
+    /// "mapname", read without gamma decoding; multiplies the radiance
+    std::optional<Image> map = std::nullopt;
+    int samples = 1;  ///< "samples"
   };
   /// Throws std::invalid_argument when the transform has no inverse or the map is unusable (see LightMap).
   /// A transform that scales unevenly is followed exactly: directions are mapped and normalised.

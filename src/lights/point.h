@@ -11,7 +11,8 @@ class PointLight final : public Light {
  public:
   struct Params {
     Rgb intensity{1.0f};  ///< "I" times "scale", W/sr
-    Point3f from;  ///< world-space offset: added to the light's origin after the CTM, not rotated by it
+    /// World-space offset: added to the light's origin after the CTM, neither turned nor scaled by it.
+    Point3f from{0, 0, 0};
   };
   PointLight(const Transform& worldFromLight, const Params& params);
 

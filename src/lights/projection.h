@@ -14,9 +14,10 @@ namespace pbrtmedia {
 class ProjectionLight final : public Light {
  public:
   struct Params {
-    Rgb intensity{1.0f};       ///< "I" times "scale", W/sr
-    float fov = 45;            ///< full angle of the ±1 span, degrees, in (0, 180)
-    std::optional<Image> map;  ///< "mapname", read without gamma decoding; none: factor 1 in a square window
+    Rgb intensity{1.0f};  ///< "I" times "scale", W/sr
+    float fov = 45;       ///< full angle of the ±1 span, degrees, in (0, 180)
+    /// "mapname", read without gamma decoding; none: factor 1 in a square window
+    std::optional<Image> map = std::nullopt;
   };
   /// Throws std::invalid_argument when `fov` is out of range, the transform has no inverse or the map is
   /// unusable (see LightMap).
