@@ -15,7 +15,7 @@ struct MediumMismatch {
   std::int64_t sample = 0;
   Point3f p;  ///< world
   std::string believed, named;
-  /// "pixel 3 4, sample 0: a boundary at (...) is entered from \"fog\", but the ray is in \"smoke\"".
+  /// pixel 3 4, sample 0: a boundary at (...) has "fog" on the side of a ray that is in "smoke"
   std::string toString() const;
 };
 
@@ -33,7 +33,6 @@ struct MediumFlight {
   double t = 0;
   Rgb weight{1.0f};                      ///< as in FreeFlight
   const PhaseFunction* phase = nullptr;  ///< of the medium that collided
-  const Placement* placement = nullptr;  ///< of the medium that collided
 };
 
 /// A plane that a path vertex in a medium must stay on one side of: the boundary at either end of its
@@ -77,8 +76,13 @@ class MediaTracker {
 
   /// Whether the medium can be only within closed boundaries.
   bool isConfined(const Medium* medium) const { return confined_.count(medium) > 0; }
+  /// A collision closer to the end of its segment than this share of the largest coordinate is looked at by
+  /// `scatterPoint`; farther away only a boundary met at less than about 1e-3 radians could be within
+  /// rounding.
+  static constexpr double kNearBoundary = 1e-3;
 
  private:
+  const Medium* cameraMedium_;
   std::unordered_set<const Medium*> confined_;
 };
 

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "accelerators/accelerator.h"
-#include "base/transform.h"
+#include "base/animated_transform.h"
+#include "base/segment.h"
 #include "integrators/primitive.h"
 
 namespace pbrtmedia {
@@ -17,16 +18,15 @@ class Placement {
  public:
   Placement(std::uint32_t object, const AnimatedTransform& worldFromObject);
   std::uint32_t object() const { return object_; }
-  Transform worldFromObject(float time) const;
+  Transform worldFromObject(double time) const { return worldFromObject_.at(time); }
   /// The same line in the object's space; t keeps its meaning as a world length.
   Segment toObject(const Segment& segmentWorld, float time) const;
-  Ray toObject(const Ray& rayWorld) const;
+  Transform objectFromWorld(double time) const;
 
  private:
   std::uint32_t object_;
   AnimatedTransform worldFromObject_;
   Transform objectFromWorld_;  ///< of the start time
-  Affine3f objectFromWorldAffine_;
 };
 
 /// A hit with the things it refers to. The surface point itself is computed on demand (Scene::surface).
@@ -35,6 +35,9 @@ struct SceneHit {
   RayHit hit;
   const Primitive* primitive = nullptr;
   const Placement* placement = nullptr;  ///< null: placed directly
+  /// Through which the medium outside is seen: as the one inside if the object itself encloses that medium
+  /// somewhere, else null, as it is then the medium around the object.
+  const Placement* outsidePlacement = nullptr;
   /// Index into Scene::lights() of the light on the primitive that was hit; kNoLight: none, or one that is
   /// visible only (lights inside objects, scene-language reference 5.4).
   std::uint32_t light = kNoLight;
@@ -53,17 +56,19 @@ class Scene {
   Scene& operator=(const Scene&) = delete;
   ~Scene();
 
-  /// Closest hit with tMin < t < ray.tMax; counted as a ray.
+  /// Closest hit with tMin < t < ray.tMax. `queries`: a counter, incremented.
   std::optional<SceneHit> closest(const Ray& ray, float tMin, const Exclusions& exclusions,
-                                  RenderCounters& counters) const;
+                                  std::uint64_t& queries) const;
   /// Whether a surface with a material lies in (tMin, ray.tMax); shadowalpha applies. Surfaces without
-  /// material do not block. Media are not considered. Counted as a shadow ray.
-  bool occluded(const Ray& ray, float tMin, const Exclusions& exclusions, RenderCounters& counters) const;
+  /// material do not block. Media are not considered. `queries`: a counter, incremented.
+  bool occluded(const Ray& ray, float tMin, const Exclusions& exclusions, std::uint64_t& queries) const;
   /// World-space surface point of a hit of `ray`, without footprint.
   SurfaceInteraction surface(const SceneHit& hit, const Ray& ray) const;
 
   /// The lights that illuminate, in order of addition; light selectors speak of these numbers.
   const std::vector<const Light*>& lights() const { return lights_; }
+  /// The primitive a light is on, to be left out when its visibility is tested; invalid for other lights.
+  PrimitiveId lightTarget(std::size_t light) const { return lightTargets_[light]; }
   /// Those of lights() that answer rays leaving the scene: index into lights().
   const std::vector<std::uint32_t>& infiniteLights() const { return infiniteLights_; }
   /// Bounds of all surfaces (over all times). Empty for a scene without surfaces.
@@ -73,8 +78,8 @@ class Scene {
   bool hasShadowAlpha() const { return hasShadowAlpha_; }
   /// Something can be seen that emits: an area light (also in an object) or an infinite light.
   bool hasVisibleEmitters() const { return hasVisibleEmitters_; }
-  /// Primitives placed directly, then those of every object, for inspection.
-  std::vector<const Primitive*> primitives() const;
+  /// Primitives in groups: those placed directly, then those of every object.
+  std::vector<std::vector<const Primitive*>> primitiveGroups() const;
   /// Bytes the ray-tracing structures hold.
   std::size_t acceleratorBytes() const;
 
@@ -82,10 +87,11 @@ class Scene {
   friend class SceneBuilder;
   struct Parts;
   explicit Scene(std::unique_ptr<Parts> parts);
-  std::optional<SceneHit> resolve(const RayHit& hit) const;
+  SceneHit resolve(const RayHit& hit) const;
 
   std::unique_ptr<Parts> parts_;
   std::vector<const Light*> lights_;
+  std::vector<PrimitiveId> lightTargets_;
   std::vector<std::uint32_t> infiniteLights_;
   Bounds3f bounds_;
   bool hasMediumBoundaries_ = false, hasShadowAlpha_ = false, hasVisibleEmitters_ = false;

@@ -44,7 +44,9 @@ class Medium {
   /// Unbiased estimate of exp(-∫ sigma_t dt) per channel over the segment; may leave [0, 1] where the
   /// estimator's traits say so. Zero length: exactly 1.
   virtual Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const = 0;
-  /// Samples where the next real collision lies.
+  /// Samples where the next real collision lies. Random numbers are drawn on the way: with the same numbers,
+  /// the flight over a shorter segment with the same start takes the same steps up to its end, and passes
+  /// when the longer one collides beyond it. (Overlapping media rely on it.)
   virtual FreeFlight sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters& counters) const = 0;
   virtual const PhaseFunction& phase() const = 0;
   /// Where the density can be positive; infinite for a homogeneous medium.

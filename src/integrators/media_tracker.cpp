@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "integrators/media_tracker.h"
+
+#include <sstream>
+
+#include "integrators/boundary_closure.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// Rounding of a point's coordinates and of a hit's distance to its plane, in float spacings of the largest
+/// coordinate involved: half a spacing per coordinate each, with room for the few operations of a triangle
+/// test.
+constexpr float kRoundingSpacings = 8;
+constexpr float kSpacing = 0x1p-23f;
+
+bool isPresent(const Medium* m) { return m && m->overlap().mode != OverlapRule::Mode::Boundary; }
+
+std::string nameOf(const Medium* m) { return m ? '"' + m->name() + '"' : "vacuum"; }
+
+/// The two sides of a boundary as a ray meets them.
+struct Sides {
+  PlacedMedium near, far;
+  bool nearIsPresent, farIsPresent;  ///< of the rules Add and Priority
+  /// Whether a side says what the boundary medium is there. Where one side names a medium that is present
+  /// whatever else is there, vacuum on the other side only means "nothing added".
+  bool nearNamesBoundary() const { return !nearIsPresent && (near.medium || !farIsPresent); }
+  bool farNamesBoundary() const { return !farIsPresent && (far.medium || !nearIsPresent); }
+};
+
+Sides sidesOf(const SceneHit& hit, bool towardOutside) {
+  const MediumInterface& media = hit.primitive->media;
+  const PlacedMedium inside{media.inside, media.inside ? hit.placement : nullptr};
+  const PlacedMedium outside{media.outside, media.outside ? hit.outsidePlacement : nullptr};
+  Sides s{towardOutside ? inside : outside, towardOutside ? outside : inside, false, false};
+  s.nearIsPresent = isPresent(s.near.medium);
+  s.farIsPresent = isPresent(s.far.medium);
+  return s;
+}
+
+void noteMismatch(const MediumState& state, const Sides& sides, Point3f p, RenderCounters& counters,
+                  MismatchLog* log) {
+  ++counters.mediumMismatches;
+  if (!log || log->entries.size() >= log->capacity) return;
+  log->entries.push_back({log->pixel, log->sample, p, state.describe(), nameOf(sides.near.medium)});
+}
+
+Segment segmentOf(const PlacedMedium& m, const Ray& ray, double tMin, double tMax) {
+  const Segment segment{ray.o, ray.d, tMin, tMax};
+  return m.placement ? m.placement->toObject(segment, ray.time) : segment;
+}
+
+}  // namespace
+
+std::string MediumMismatch::toString() const {
+  std::ostringstream out;
+  out << "pixel " << pixel.x << ' ' << pixel.y << ", sample " << sample << ": a boundary at " << p << " has "
+      << named << " on the side of a ray that is in " << believed;
+  return out.str();
+}
+
+MediaTracker::MediaTracker(const Scene& scene, const Medium* cameraMedium)
+    : cameraMedium_(cameraMedium), confined_(findConfinedMedia(scene)) {
+  confined_.erase(cameraMedium);
+}
+
+void MediaTracker::cross(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si, Vector3f d,
+                         RenderCounters& counters, MismatchLog* log) const {
+  if (hit.primitive->media.same()) return;
+  const Sides s = sidesOf(hit, dot(d, si.n) > 0);
+  const bool contradicts =
+      s.nearIsPresent ? state.count(s.near) == 0 : s.nearNamesBoundary() && !(state.boundary() == s.near);
+  if (contradicts) noteMismatch(state, s, si.p, counters, log);
+  if (s.nearIsPresent) state.leave(s.near);
+  if (s.farIsPresent) state.enter(s.far);
+  if (s.farNamesBoundary()) state.setBoundary(s.far);
+}
+
+void MediaTracker::leaveSurface(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si,
+                                Vector3f wi, RenderCounters& counters, MismatchLog* log) const {
+  if (hit.primitive->media.same()) return;
+  const bool goesOutside = dot(wi, si.n) > 0, cameFromOutside = dot(si.wo, si.n) > 0;
+  if (goesOutside != cameFromOutside) return cross(state, hit, si, wi, counters, log);
+  const Sides s = sidesOf(hit, !goesOutside);
+  if (!s.nearNamesBoundary() || state.boundary() == s.near) return;
+  noteMismatch(state, s, si.p, counters, log);
+  state.setBoundary(s.near);
+}
+
+void MediaTracker::escape(MediumState& state, RenderCounters& counters) const {
+  if (state.isVacuum() || confined_.empty()) return;
+  bool repaired = false;
+  if (isConfined(state.boundary().medium)) {
+    state.setBoundary(isPresent(cameraMedium_) ? PlacedMedium{} : PlacedMedium{cameraMedium_, nullptr});
+    repaired = true;
+  }
+  for (std::size_t i = state.enteredCount(); i-- > 0;) {
+    if (!isConfined(state.entered(i).medium)) continue;
+    state.leave(state.entered(i));
+    repaired = true;
+  }
+  if (repaired) ++counters.boundaryRepairs;
+}
+
+Rgb MediaTracker::transmittance(const MediumState& state, const Ray& ray, double tMin, double tMax, Rng& rng,
+                                RenderCounters& counters) {
+  Rgb product(1.0f);
+  for (std::size_t i = 0; i < state.activeCount() && !product.isBlack(); ++i) {
+    const PlacedMedium m = state.active(i);
+    product *= m.medium->transmittance(segmentOf(m, ray, tMin, tMax), rng, counters);
+  }
+  return product;
+}
+
+namespace {
+
+/// Independent free flights through several media. The nearest collision counts. What another medium let
+/// through up to there is told by the same flight on the shorter segment: as a flight draws its random
+/// numbers on the way (Medium::sampleFreeFlight), a replay of its numbers takes the same steps and passes.
+MediumFlight nearestOfFlights(const MediumState& state, const Ray& ray, double tMin, double tMax, Rng& rng,
+                              RenderCounters& counters) {
+  struct Flight {
+    Rng start;
+    Rgb passed;
+    double tEnd;
+  };
+  std::vector<Flight> flights;
+  flights.reserve(state.activeCount());
+  MediumFlight nearest;
+  Rgb collidedWeight(1.0f);
+  std::size_t winner = state.activeCount();
+  for (std::size_t i = 0; i < state.activeCount(); ++i) {
+    const PlacedMedium m = state.active(i);
+    const Rng start = rng;
+    const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), rng, counters);
+    flights.push_back({start, f.weight, tMax});
+    if (!f.collided) continue;
+    tMax = f.t;
+    winner = i;
+    collidedWeight = f.weight;
+    nearest = {true, f.t, Rgb(1.0f), &m.medium->phase()};
+  }
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    if (i == winner) {
+      nearest.weight *= collidedWeight;
+      continue;
+    }
+    const PlacedMedium m = state.active(i);
+    if (flights[i].tEnd != tMax) {
+      Rng replay = flights[i].start;
+      const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), replay, counters);
+      // It may collide only by rounding at the very end; then it got there all the same.
+      flights[i].passed = f.collided ? Rgb(1.0f) : f.weight;
+    }
+    nearest.weight *= flights[i].passed;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+MediumFlight MediaTracker::sampleFreeFlight(const MediumState& state, const Ray& ray, double tMin,
+                                            double tMax, Rng& rng, RenderCounters& counters) {
+  if (state.isVacuum()) return {};
+  if (state.activeCount() > 1) return nearestOfFlights(state, ray, tMin, tMax, rng, counters);
+  const PlacedMedium m = state.active(0);
+  const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), rng, counters);
+  return {f.collided, f.t, f.weight, f.collided ? &m.medium->phase() : nullptr};
+}
+
+Point3f MediaTracker::scatterPoint(const Ray& ray, double t, const BoundaryPlane& start,
+                                   const BoundaryPlane& end, RenderCounters& counters) {
+  const Segment line{ray.o, ray.d, 0, t};
+  Point3f p = line.at(t);
+  const float scale = std::max(maxComponent(abs(p)), maxComponent(abs(ray.o)));
+  const float margin = kRoundingSpacings * kSpacing * scale;
+  for (const BoundaryPlane* plane : {&start, &end}) {
+    if (!plane->isValid) continue;
+    const Vec3d offset = Vec3d(p) - Vec3d(plane->p);
+    // Far along a grazing segment the plane says nothing about the surface.
+    if (!(lengthSquared(offset) < sqr(kNearBoundary * static_cast<double>(scale)))) continue;
+    const double height = dot(offset, Vec3d(plane->n));
+    if (height >= margin) continue;
+    if (height <= 0) ++counters.boundaryRepairs;
+    p = Point3f(Vec3d(p) + (margin - height) * Vec3d(plane->n));
+  }
+  return p;
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "integrators/path_tracer.h"
+
+#include "base/warp.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// PBRT-v3's roulette: from this bounce on, with at least this chance of ending (scene-language
+/// reference 11.2).
+constexpr int kRouletteBounces = 3;
+constexpr float kLeastTermination = 0.05f;
+/// In media, paths of less weight than this are already thinned out before that bounce. At one tenth, what is
+/// left of a path has little part in the variance, and an absorbing medium costs hardly more than one
+/// scattering.
+constexpr float kMediumRouletteWeight = 0.1f;
+
+BoundaryPlane planeAt(const SurfaceInteraction& si, Vector3f toward) {
+  return {true, si.p, faceForward(si.n, toward)};
+}
+
+/// Whether sampling the BSDF reaches every direction in which it scatters. With a shading normal, or glossy
+/// lobes, some can be reached by light samples only.
+bool samplingCoversBsdf(const Bsdf& bsdf, const SurfaceInteraction& si) {
+  constexpr BsdfFlags kDiffuse = BsdfFlags::Diffuse | BsdfFlags::Reflection | BsdfFlags::Transmission;
+  return bsdf.count(kDiffuse) == bsdf.count() && bsdf.shadingNormal() == si.n;
+}
+
+}  // namespace
+
+PathTracer::PathTracer(const PathSetup& setup, const RayDifferential& ray, const MediumState& start,
+                       SampleContext& context)
+    : setup_(setup),
+      context_(context),
+      samples_(context),
+      counters_(context.counters),
+      ray_(ray),
+      state_(start) {}
+
+Rgb PathTracer::trace() {
+  for (;;) {
+    if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters()) return radiance_;
+    switch (travel()) {
+      case Event::End:
+        return radiance_;
+      case Event::Surface:
+        if (!scatterOnSurface()) return radiance_;
+        break;
+      case Event::Medium:
+        if (!scatterInMedium()) return radiance_;
+        break;
+    }
+  }
+}
+
+/// Follows the ray through boundaries without material to the next scattering event, and collects what emits
+/// on the way. Crossings cost no depth and no roulette.
+PathTracer::Event PathTracer::travel() {
+  LineWalk walk(setup_.scene, ray_, Exclusions(rayStart_));
+  BoundaryPlane start = startPlane_;
+  double t = 0;
+  for (;;) {
+    const std::optional<SceneHit> hit = walk.next(counters_.rays);
+    if (!hit && setup_.media) setup_.media->escape(state_, counters_);
+    if (seesOnlyEmission()) {
+      const bool blocked = hit && hit->primitive->material && !hit->isEmitter();
+      if (blocked || (!hit && setup_.scene.infiniteLights().empty())) return Event::End;
+    }
+    if (!state_.isVacuum()) {
+      Event event = Event::End;
+      if (!passMedium(t, hit ? hit->t() : kInfinity, hit ? &*hit : nullptr, start, event)) return event;
+    }
+    if (!hit) {
+      collectBackground();
+      return Event::End;
+    }
+    const bool scatters = hit->primitive->material != nullptr;
+    if (scatters || hit->isEmitter() || setup_.media) {
+      const SurfaceInteraction si = surfaceAt(*hit);
+      if (hit->isEmitter()) collectEmission(*hit, si);
+      if (scatters) {
+        if (seesOnlyEmission()) return Event::End;
+        surface_ = {*hit, si};
+        return Event::Surface;
+      }
+      if (setup_.media) {
+        setup_.media->cross(state_, *hit, si, ray_.d, counters_, context_.mismatches);
+        start = planeAt(si, ray_.d);
+      }
+    }
+    t = hit->t();
+  }
+}
+
+/// The media between two surfaces. True: the path passes. False: `event` tells whether it scatters or ends.
+bool PathTracer::passMedium(double tMin, double tMax, const SceneHit* hit, const BoundaryPlane& start,
+                            Event& event) {
+  if (seesOnlyEmission()) {
+    beta_ *= MediaTracker::transmittance(state_, ray_, tMin, tMax, context_.rng, counters_);
+    return !beta_.isBlack();
+  }
+  const MediumFlight flight =
+      MediaTracker::sampleFreeFlight(state_, ray_, tMin, tMax, context_.rng, counters_);
+  beta_ *= flight.weight;
+  if (beta_.isBlack()) return false;
+  if (!flight.collided) return true;
+  BoundaryPlane end;
+  if (hit && tMax - flight.t < MediaTracker::kNearBoundary * (tMax + maxComponent(abs(ray_.o)))) {
+    end = planeAt(setup_.scene.surface(*hit, ray_), -ray_.d);
+  }
+  medium_ = {MediaTracker::scatterPoint(ray_, flight.t, start, end, counters_), flight.phase};
+  if (!isFinite(medium_.p)) return false;  // beyond what coordinates can tell: nothing is out there
+  event = Event::Medium;
+  return false;
+}
+
+SurfaceInteraction PathTracer::surfaceAt(const SceneHit& hit) const {
+  SurfaceInteraction si = setup_.scene.surface(hit, ray_);
+  if (ray_.hasDifferentials && hit.primitive->material) si.computeDifferentials(ray_);
+  return si;
+}
+
+/// Share of the emission found by the current segment; light sampling at its start accounts for the rest.
+float PathTracer::emissionWeight(std::size_t light, const SurfaceInteraction* si) const {
+  if (isDirect_) return 1;
+  if (light == SceneHit::kNoLight) return 0;  // visible, but no source of illumination
+  const Light& source = *setup_.scene.lights()[light];
+  if (ownsUniformLights_ && source.isUniformInfinite()) return 1;
+  const float lightPdf = setup_.selector->probability(ray_.o, light) * source.pdf(ray_.o, ray_.d, si);
+  return powerHeuristic(directionPdf_, lightPdf);
+}
+
+void PathTracer::collectEmission(const SceneHit& hit, const SurfaceInteraction& si) {
+  const Rgb emitted = hit.areaLight().emitted(si.n, si.wo);
+  if (!emitted.isBlack()) radiance_ += beta_ * emitted * emissionWeight(hit.light, &si);
+}
+
+void PathTracer::collectBackground() {
+  for (const std::uint32_t light : setup_.scene.infiniteLights()) {
+    const Rgb background = setup_.scene.lights()[light]->background(ray_.d);
+    if (!background.isBlack()) radiance_ += beta_ * background * emissionWeight(light, nullptr);
+  }
+}
+
+bool PathTracer::scatterOnSurface() {
+  ++counters_.surfaceScatterings;
+  samples_.startVertex(bounces_);
+  SurfaceInteraction& si = surface_.si;
+  const Bsdf bsdf = surface_.hit.primitive->material->bsdf(si, /*mergeSpecular=*/true);
+  ownsUniformLights_ = samplingCoversBsdf(bsdf, si);
+  if (bsdf.count(BsdfFlags::AllButSpecular) > 0) lightSurface(bsdf);
+
+  const BsdfSample sample = bsdf.sample(si.wo, samples_.get2D());
+  if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
+  beta_ *= sample.f * (absDot(sample.wi, bsdf.shadingNormal()) / sample.pdf);
+  if (beta_.isBlack()) return false;
+  isDirect_ = any(sample.flags & BsdfFlags::Specular);
+  directionPdf_ = sample.pdf;
+  if (isDirect_ && any(sample.flags & BsdfFlags::Transmission) &&
+      dot(sample.wi, si.n) * dot(si.wo, si.n) < 0) {
+    const float eta2 = sqr(bsdf.eta());
+    etaScale_ *= dot(si.wo, si.n) > 0 ? eta2 : 1 / eta2;
+  }
+  ++bounces_;
+  if (setup_.media) {
+    setup_.media->leaveSurface(state_, surface_.hit, si, sample.wi, counters_, context_.mismatches);
+  }
+  startSegment(si.p, sample.wi, planeAt(si, sample.wi), surface_.hit.hit.id);
+  return playRoulette(/*inMedium=*/false);
+}
+
+bool PathTracer::scatterInMedium() {
+  ++counters_.mediumScatterings;
+  samples_.startVertex(bounces_);
+  ownsUniformLights_ = true;  // a phase function is its own sampling density
+  lightMedium();
+  const PhaseFunction::Sample sample = medium_.phase->sample(-ray_.d, samples_.get2D());
+  if (!(sample.value > 0)) return false;
+  isDirect_ = false;
+  directionPdf_ = sample.value;
+  ++bounces_;
+  startSegment(medium_.p, sample.wi, {}, {});
+  return playRoulette(/*inMedium=*/true);
+}
+
+void PathTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, PrimitiveId start) {
+  const float time = ray_.time;
+  ray_ = RayDifferential();
+  ray_.o = o;
+  ray_.d = d;
+  ray_.time = time;
+  startPlane_ = plane;
+  rayStart_ = start;
+}
+
+/// A light and a point on it; nothing when light sampling has no part in the estimate.
+std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool scatteringFindsUniformLights) {
+  const auto& lights = setup_.scene.lights();
+  if (lights.empty()) return std::nullopt;
+  const auto skips = [&](std::size_t i) {
+    return scatteringFindsUniformLights && lights[i]->isUniformInfinite();
+  };
+  if (lights.size() == 1 && skips(0)) return std::nullopt;
+  const LightSelector::Choice choice = setup_.selector->choose(p, samples_.get1D());
+  const Point2f u = samples_.get2D();
+  if (skips(choice.light)) return std::nullopt;
+  PickedLight picked{choice.light, lights[choice.light]->sample(p, u)};
+  if (!(picked.sample.pdf > 0) || picked.sample.radiance.isBlack()) return std::nullopt;
+  picked.sample.pdf *= choice.probability;
+  return picked;
+}
+
+Rgb PathTracer::unoccluded(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state) {
+  const Scene& scene = setup_.scene;
+  const ShadowRay shadow = shadowRayTo(light.sample, p, ray_.time, start, scene.lightTarget(light.index));
+  if (setup_.media) {
+    return shadowTransmittance(scene, *setup_.media, shadow, state, context_.rng, counters_,
+                               context_.mismatches);
+  }
+  return Rgb(scene.occluded(shadow.ray, 0, shadow.exclusions, counters_.shadowRays) ? 0.0f : 1.0f);
+}
+
+void PathTracer::lightSurface(const Bsdf& bsdf) {
+  const SurfaceInteraction& si = surface_.si;
+  const std::optional<PickedLight> light = pickLight(si.p, ownsUniformLights_);
+  if (!light) return;
+  const LightSample& s = light->sample;
+  const Rgb f = bsdf.f(si.wo, s.wi, BsdfFlags::AllButSpecular) * absDot(s.wi, bsdf.shadingNormal());
+  if (f.isBlack()) return;
+  const bool isDelta = setup_.scene.lights()[light->index]->isDelta();
+  const float weight = isDelta ? 1 : powerHeuristic(s.pdf, bsdf.pdf(si.wo, s.wi));
+  MediumState state = state_;
+  if (setup_.media) {
+    setup_.media->leaveSurface(state, surface_.hit, si, s.wi, counters_, context_.mismatches);
+  }
+  radiance_ +=
+      beta_ * f * s.radiance * (weight / s.pdf) * unoccluded(*light, si.p, surface_.hit.hit.id, state);
+}
+
+void PathTracer::lightMedium() {
+  const std::optional<PickedLight> light = pickLight(medium_.p, ownsUniformLights_);
+  if (!light) return;
+  const LightSample& s = light->sample;
+  const float phase = medium_.phase->evaluate(-ray_.d, s.wi);
+  if (!(phase > 0)) return;
+  const bool isDelta = setup_.scene.lights()[light->index]->isDelta();
+  const float weight = isDelta ? 1 : powerHeuristic(s.pdf, phase);
+  radiance_ += beta_ * s.radiance * (phase * weight / s.pdf) * unoccluded(*light, medium_.p, {}, state_);
+}
+
+bool PathTracer::playRoulette(bool inMedium) {
+  const float threshold = setup_.params.rrThreshold;
+  const float weight = std::max(std::abs(beta_.max()), std::abs(beta_.min())) * etaScale_;
+  float survival = 1;
+  if (bounces_ - 1 > kRouletteBounces) {
+    if (weight < threshold) survival = std::min(weight, inMedium ? 1.0f : 1 - kLeastTermination);
+  } else if (inMedium && weight < kMediumRouletteWeight * std::min(threshold, 1.0f)) {
+    survival = weight / kMediumRouletteWeight;
+  }
+  if (survival >= 1) return true;
+  if (context_.rng.uniform() >= survival) return false;
+  beta_ /= survival;
+  return true;
+}
+
+}  // namespace pbrtmedia

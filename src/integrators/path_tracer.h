@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <optional>
+
+#include "integrators/line_walk.h"
+#include "integrators/media_tracker.h"
+#include "integrators/path.h"
+#include "integrators/path_samples.h"
+#include "integrators/visibility.h"
+
+namespace pbrtmedia {
+
+/// What all paths of an integrator share.
+struct PathSetup {
+  const Scene& scene;
+  const PathParams& params;
+  const LightSelector* selector;  ///< null: no lights
+  const MediaTracker* media;      ///< null: media are ignored
+};
+
+/// One path of `path` or `volpath`, from the camera to its end. Every vertex takes one light sample, and its
+/// continuation is at the same time the other half of direct lighting: what it finds emitting is weighted by
+/// the power heuristic (Veach & Guibas 1995, doi:10.1145/218380.218498). So the last vertex still sends a ray
+/// that looks for emission only, and `maxDepth` counts vertices as in PBRT-v3.
+class PathTracer {
+ public:
+  PathTracer(const PathSetup& setup, const RayDifferential& ray, const MediumState& start,
+             SampleContext& context);
+  /// The estimate of the radiance arriving at the ray's origin. Once.
+  Rgb trace();
+
+ private:
+  struct SurfaceVertex {
+    SceneHit hit;
+    SurfaceInteraction si;
+  };
+  struct MediumVertex {
+    Point3f p;
+    const PhaseFunction* phase;
+  };
+  enum class Event { End, Surface, Medium };
+
+  // Each path event is one function. Those that return bool tell whether the path goes on.
+  Event travel();
+  bool passMedium(double tMin, double tMax, const SceneHit* hit, const BoundaryPlane& start, Event& event);
+  void collectEmission(const SceneHit& hit, const SurfaceInteraction& si);
+  void collectBackground();
+  bool scatterOnSurface();
+  bool scatterInMedium();
+  void lightSurface(const Bsdf& bsdf);
+  void lightMedium();
+  bool playRoulette(bool inMedium);
+
+  struct PickedLight {
+    std::size_t index;
+    LightSample sample;  ///< pdf includes the probability of the pick
+  };
+  std::optional<PickedLight> pickLight(Point3f p, bool scatteringFindsUniformLights);
+  Rgb unoccluded(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state);
+  float emissionWeight(std::size_t light, const SurfaceInteraction* si) const;
+  SurfaceInteraction surfaceAt(const SceneHit& hit) const;
+  void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, PrimitiveId start);
+  bool seesOnlyEmission() const { return bounces_ >= setup_.params.maxDepth; }
+
+  const PathSetup& setup_;
+  SampleContext& context_;
+  PathSamples samples_;
+  RenderCounters& counters_;
+
+  RayDifferential ray_;
+  PrimitiveId rayStart_;
+  BoundaryPlane startPlane_;
+  MediumState state_;
+  SurfaceVertex surface_;
+  MediumVertex medium_{};
+
+  Rgb beta_{1.0f}, radiance_;
+  int bounces_ = 0;
+  float etaScale_ = 1;  ///< undoes the radiance scaling of refraction in roulette decisions
+  // The vertex the current segment starts on, as multiple importance sampling sees it.
+  bool isDirect_ = true;            ///< camera or perfect specular vertex: emission counts fully
+  float directionPdf_ = 0;          ///< solid-angle density of the segment's direction
+  bool ownsUniformLights_ = false;  ///< no light sample was spent on uniform infinite lights there
+};
+
+}  // namespace pbrtmedia

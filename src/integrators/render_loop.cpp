@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "integrators/render_loop.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <tuple>
+
+#include "base/hash.h"
+#include "base/parallel.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// Memory of one pass at most, bytes.
+constexpr std::size_t kPassBytes = std::size_t{64} << 20;
+/// "path" in ASCII: keeps the Rng of samples apart from other uses of the same seed.
+constexpr std::uint64_t kRngTag = 0x70617468;
+constexpr double kProgressInterval = 0.1;  // seconds
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A rectangle of the film that one thread renders, and what came out besides radiance.
+struct Tile {
+  Bounds2i pixels;
+  RenderCounters counters;
+  std::uint64_t samples = 0;
+  std::vector<DroppedSample> dropped;
+  std::vector<MediumMismatch> mismatches;
+  bool complete = false;
+};
+
+std::vector<Tile> tilesOf(Bounds2i bounds, int size) {
+  std::vector<Tile> tiles;
+  for (int y = bounds.min.y; y < bounds.max.y; y += size) {
+    for (int x = bounds.min.x; x < bounds.max.x; x += size) {
+      tiles.push_back({intersect(Bounds2i{{x, y}, {x + size, y + size}}, bounds), {}, 0, {}, {}, false});
+    }
+  }
+  return tiles;
+}
+
+DropCause causeOf(const RenderCounters& before, const RenderCounters& after) {
+  for (std::size_t i = 0; i < before.dropped.size(); ++i) {
+    if (after.dropped[i] != before.dropped[i]) return static_cast<DropCause>(i);
+  }
+  return DropCause::NotANumber;
+}
+
+/// Keeps the first `most` records in order of pixel, then sample. Since every tile notes its records in this
+/// very order, what is kept does not depend on tiles, threads and passes.
+template <class Record>
+void mergeRecords(std::vector<Record>& all, const std::vector<Record>& more, std::size_t most) {
+  all.insert(all.end(), more.begin(), more.end());
+  const auto key = [](const Record& r) { return std::make_tuple(r.pixel.y, r.pixel.x, r.sample); };
+  std::stable_sort(all.begin(), all.end(), [&](const Record& a, const Record& b) { return key(a) < key(b); });
+  if (all.size() > most) all.resize(most);
+}
+
+class RenderLoop {
+ public:
+  RenderLoop(const Camera& camera, const Sampler& sampler, const Integrator& integrator, Film& film,
+             const RenderOptions& options)
+      : camera_(camera),
+        sampler_(sampler),
+        integrator_(integrator),
+        film_(film),
+        options_(options),
+        bounds_(film.sampleBounds()),
+        samplesPerPixel_(options.samplesPerPixel.value_or(sampler.samplesPerPixel())) {
+    if (options.pixelBounds) bounds_ = intersect(bounds_, *options.pixelBounds);
+  }
+
+  RenderResult run() {
+    const auto area = static_cast<std::uint64_t>(bounds_.area());
+    result_.samplesTotal =
+        area * static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel_ - options_.firstSample, 0));
+    result_.completedSamplesPerPixel = options_.firstSample;
+    std::int64_t next = options_.firstSample;
+    for (int pass = 0; area > 0 && next < samplesPerPixel_ && !shouldStop(); ++pass) {
+      const auto count = static_cast<int>(std::min<std::int64_t>(passSize(pass), samplesPerPixel_ - next));
+      const bool complete = renderPass(next, count);
+      next += count;
+      if (!complete) break;
+      result_.completedSamplesPerPixel = next;
+      if (options_.afterPass && !options_.afterPass(progress())) break;
+    }
+    if (area == 0) result_.completedSamplesPerPixel = std::max(samplesPerPixel_, options_.firstSample);
+    result_.interrupted = result_.samplesTaken < result_.samplesTotal;
+    result_.seconds = watch_.seconds();
+    return std::move(result_);
+  }
+
+ private:
+  /// Under a time limit the first passes are small, so that the whole film gets samples before time runs out.
+  std::int64_t passSize(int pass) const {
+    if (options_.samplesPerPass) return std::max(1, *options_.samplesPerPass);
+    const auto perSample = static_cast<std::size_t>(bounds_.area()) * sizeof(SamplePass::Sample);
+    const auto byMemory = static_cast<std::int64_t>(std::max<std::size_t>(1, kPassBytes / perSample));
+    if (options_.timeLimit == std::numeric_limits<double>::infinity()) return byMemory;
+    return std::min(byMemory, std::int64_t{1} << std::min(pass, 30));
+  }
+
+  bool shouldStop() const {
+    if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return true;
+    return watch_.seconds() >= options_.timeLimit;
+  }
+
+  RenderProgress progress() const {
+    return {samplesDone_.load(std::memory_order_relaxed), result_.samplesTotal, watch_.seconds()};
+  }
+
+  /// Samples [first, first + count) of every pixel. False: stopped on the way.
+  bool renderPass(std::int64_t first, int count) {
+    SamplePass pass(bounds_, count);
+    std::vector<Tile> tiles = tilesOf(bounds_, std::max(1, options_.tileSize));
+    parallelFor(tiles.size(), [&](std::size_t i) { renderTile(tiles[i], pass, first, count); });
+    film_.accumulate(pass);
+    bool complete = true;
+    for (const Tile& tile : tiles) {
+      complete &= tile.complete;
+      result_.samplesTaken += tile.samples;
+      result_.counters.add(tile.counters);
+      mergeRecords(result_.dropped, tile.dropped, options_.maxRecords);
+      mergeRecords(result_.mismatches, tile.mismatches, options_.maxRecords);
+    }
+    return complete;
+  }
+
+  void renderTile(Tile& tile, SamplePass& pass, std::int64_t first, int count) {
+    const std::unique_ptr<Sampler> sampler = sampler_.clone();
+    for (int y = tile.pixels.min.y; y < tile.pixels.max.y; ++y) {
+      for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
+        for (int s = 0; s < count; ++s) {
+          if (shouldStop()) return;
+          takeSample(tile, *sampler, {x, y}, first + s, pass.at({x, y}, s));
+        }
+        samplesDone_.fetch_add(static_cast<std::uint64_t>(count), std::memory_order_relaxed);
+      }
+      reportProgress();
+    }
+    tile.complete = true;
+  }
+
+  void takeSample(Tile& tile, Sampler& sampler, Point2i pixel, std::int64_t index, SamplePass::Sample& out) {
+    MismatchLog log{
+        pixel, index, options_.maxRecords - std::min(options_.maxRecords, tile.mismatches.size()), {}};
+    Point2f film;
+    Rgb radiance = renderSample(camera_, sampler, integrator_, pixel, index, samplesPerPixel_, options_.seed,
+                                tile.counters, &log, &film);
+    tile.mismatches.insert(tile.mismatches.end(), log.entries.begin(), log.entries.end());
+    const RenderCounters before = tile.counters;
+    if (!film_.admit(radiance, tile.counters)) {
+      if (tile.dropped.size() < options_.maxRecords) {
+        tile.dropped.push_back({pixel, index, causeOf(before, tile.counters)});
+      }
+      radiance = {};
+    }
+    out.offset = {film.x - static_cast<float>(pixel.x), film.y - static_cast<float>(pixel.y)};
+    out.radiance = radiance;
+    out.valid = true;
+    ++tile.samples;
+  }
+
+  void reportProgress() {
+    if (!options_.progress) return;
+    const std::unique_lock<std::mutex> lock(progressMutex_, std::try_to_lock);
+    if (!lock.owns_lock()) return;
+    const RenderProgress now = progress();
+    if (now.seconds - lastReport_ < kProgressInterval) return;
+    lastReport_ = now.seconds;
+    options_.progress(now);
+  }
+
+  const Camera& camera_;
+  const Sampler& sampler_;
+  const Integrator& integrator_;
+  Film& film_;
+  const RenderOptions& options_;
+  Bounds2i bounds_;
+  std::int64_t samplesPerPixel_;
+  Stopwatch watch_;
+  RenderResult result_;
+  std::atomic<std::uint64_t> samplesDone_{0};
+  std::mutex progressMutex_;
+  double lastReport_ = 0;
+};
+
+}  // namespace
+
+RenderResult renderFilm(const Camera& camera, const Sampler& sampler, const Integrator& integrator,
+                        Film& film, const RenderOptions& options) {
+  return RenderLoop(camera, sampler, integrator, film, options).run();
+}
+
+Rgb renderSample(const Camera& camera, Sampler& sampler, const Integrator& integrator, Point2i pixel,
+                 std::int64_t sample, std::int64_t samplesPerPixel, std::uint64_t seed,
+                 RenderCounters& counters, MismatchLog* mismatches, Point2f* film) {
+  sampler.start(pixel, sample);
+  const CameraSample cameraSample = sampler.cameraSample(pixel);
+  if (film) *film = cameraSample.film;
+  ++counters.cameraSamples;
+  Camera::WeightedRay weighted = camera.generateRay(cameraSample.film, cameraSample.lens, cameraSample.time);
+  if (weighted.weight == 0) return {};
+  weighted.ray.scaleDifferentials(1 /
+                                  std::sqrt(static_cast<float>(std::max<std::int64_t>(samplesPerPixel, 1))));
+  Rng rng(hashCombine(seed, static_cast<std::uint32_t>(pixel.x), static_cast<std::uint32_t>(pixel.y),
+                      static_cast<std::uint64_t>(sample), kRngTag));
+  SampleContext context{sampler, rng, counters, mismatches};
+  return weighted.weight * integrator.radiance(weighted.ray, context);
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "integrators/scene.h"
+
+#include "integrators/scene_parts.h"
+
+namespace pbrtmedia {
+
+Placement::Placement(std::uint32_t object, const AnimatedTransform& worldFromObject)
+    : object_(object),
+      worldFromObject_(worldFromObject),
+      objectFromWorld_(worldFromObject.start().inverse()) {}
+
+Transform Placement::objectFromWorld(double time) const {
+  return worldFromObject_.isAnimated() ? worldFromObject_.at(time).inverse() : objectFromWorld_;
+}
+
+Segment Placement::toObject(const Segment& s, float time) const {
+  if (!worldFromObject_.isAnimated()) {
+    return {objectFromWorld_.point(s.o), objectFromWorld_.vector(s.d), s.tMin, s.tMax};
+  }
+  const Transform m = objectFromWorld(time);
+  return {m.point(s.o), m.vector(s.d), s.tMin, s.tMax};
+}
+
+Scene::Scene(std::unique_ptr<Parts> parts)
+    : parts_(std::move(parts)),
+      lights_(parts_->lights.begin(), parts_->lights.end()),
+      lightTargets_(parts_->lightTargets),
+      bounds_(parts_->top.accelerator.bounds()) {
+  for (std::uint32_t i = 0; i < lights_.size(); ++i) {
+    if (lights_[i]->isInfinite()) infiniteLights_.push_back(i);
+  }
+  hasVisibleEmitters_ = !infiniteLights_.empty();
+  for (const auto& group : primitiveGroups()) {
+    for (const Primitive* p : group) {
+      hasMediumBoundaries_ |= !p->media.same();
+      hasShadowAlpha_ |= p->shadowAlpha != nullptr;
+      hasVisibleEmitters_ |= !p->areaLights.empty();
+    }
+  }
+}
+
+Scene::~Scene() = default;
+
+SceneHit Scene::resolve(const RayHit& hit) const {
+  SceneHit result{.hit = hit};
+  const Parts::PlacedPrimitive* placed = nullptr;
+  if (hit.id.instance == PrimitiveId::kNone) {
+    placed = parts_->entries[hit.id.geometry].primitive;
+  } else {
+    result.placement = parts_->entries[hit.id.instance].placement;
+    placed = &parts_->objects[result.placement->object()].primitives[hit.id.geometry];
+    if (!placed->outsideIsAmbient) result.outsidePlacement = result.placement;
+  }
+  result.primitive = &placed->primitive;
+  if (placed->firstLight != SceneHit::kNoLight) result.light = placed->firstLight + hit.id.primitive;
+  return result;
+}
+
+std::optional<SceneHit> Scene::closest(const Ray& ray, float tMin, const Exclusions& exclusions,
+                                       std::uint64_t& queries) const {
+  ++queries;
+  const std::optional<RayHit> hit = parts_->top.accelerator.intersect(ray, tMin, exclusions);
+  if (!hit) return std::nullopt;
+  return resolve(*hit);
+}
+
+bool Scene::occluded(const Ray& ray, float tMin, const Exclusions& exclusions, std::uint64_t& queries) const {
+  ++queries;
+  return parts_->top.accelerator.occluded(ray, tMin, exclusions);
+}
+
+SurfaceInteraction Scene::surface(const SceneHit& hit, const Ray& ray) const {
+  if (!hit.placement) {
+    SurfaceInteraction si = hit.primitive->shape->interaction(hit.hit, ray);
+    si.primitive = hit.hit.id;
+    return si;
+  }
+  const Ray rayObject = hit.placement->objectFromWorld(ray.time).ray(ray);
+  SurfaceInteraction si = transformInteraction(hit.placement->worldFromObject(ray.time),
+                                               hit.primitive->shape->interaction(hit.hit, rayObject));
+  si.primitive = hit.hit.id;
+  return si;
+}
+
+std::vector<std::vector<const Primitive*>> Scene::primitiveGroups() const {
+  std::vector<std::vector<const Primitive*>> groups;
+  const auto add = [&](const Parts::Group& group) {
+    auto& list = groups.emplace_back();
+    for (const Parts::PlacedPrimitive& p : group.primitives) list.push_back(&p.primitive);
+  };
+  add(parts_->top);
+  for (const Parts::Group& object : parts_->objects) add(object);
+  return groups;
+}
+
+std::size_t Scene::acceleratorBytes() const {
+  std::size_t bytes = parts_->top.accelerator.memoryBytes();
+  for (const Parts::Group& object : parts_->objects) bytes += object.accelerator.memoryBytes();
+  return bytes;
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "integrators/visibility.h"
+
+#include "integrators/line_walk.h"
+
+namespace pbrtmedia {
+
+/// A shadow ray stops short of the light's surface by this share of its length, some roundings of a hit's t,
+/// so that neighbours of the emitting primitive in its own plane do not shadow it.
+static constexpr float kEndMargin = 0x1p-18f;
+
+ShadowRay shadowRayTo(const LightSample& sample, Point3f p, float time, PrimitiveId start,
+                      PrimitiveId target) {
+  ShadowRay shadow;
+  shadow.ray.o = p;
+  shadow.ray.d = sample.wi;
+  shadow.ray.time = time;
+  shadow.ray.tMax = sample.distance * (1 - kEndMargin);
+  shadow.exclusions.add(start, 0);
+  shadow.exclusions.add(target, sample.distance);
+  return shadow;
+}
+
+Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
+                        MediumState state, Rng& rng, RenderCounters& counters, MismatchLog* log) {
+  const Ray& ray = shadow.ray;
+  LineWalk walk(scene, ray, shadow.exclusions);
+  Rgb product(1.0f);
+  double t = 0;
+  for (;;) {
+    const std::optional<SceneHit> hit = walk.next(counters.shadowRays);
+    if (hit && hit->primitive->material) return {};
+    if (!hit && ray.tMax == kInfinity) tracker.escape(state, counters);
+    const double tEnd = hit ? hit->t() : ray.tMax;
+    if (!state.isVacuum()) {
+      product *= MediaTracker::transmittance(state, ray, t, tEnd, rng, counters);
+      if (product.isBlack()) return product;
+    }
+    if (!hit) return product;
+    if (!hit->primitive->media.same()) {
+      tracker.cross(state, *hit, scene.surface(*hit, ray), ray.d, counters, log);
+    }
+    t = tEnd;
+  }
+}
+
+}  // namespace pbrtmedia
