@@ -23,8 +23,9 @@ struct Shutter {
 Shutter readShutter(ParamReader& in) {
   Shutter s{in.findFloat("shutteropen", 0), in.findFloat("shutterclose", 1)};
   if (s.close < s.open) {
-    in.diagnostics().warning(in.locationOf(ParamKind::Float, "shutteropen"),
-                             in.context() + ": the shutter closes before it opens; the two times are exchanged");
+    in.diagnostics().warning(
+        in.locationOf(ParamKind::Float, "shutteropen"),
+        in.context() + ": the shutter closes before it opens; the two times are exchanged");
     std::swap(s.open, s.close);
   }
   return s;
@@ -59,7 +60,8 @@ std::unique_ptr<Camera> readPerspective(ParamReader& in, const AnimatedTransform
   return std::make_unique<PerspectiveCamera>(place, p);
 }
 
-std::unique_ptr<Camera> readOrthographic(ParamReader& in, const AnimatedTransform& place, Point2i resolution) {
+std::unique_ptr<Camera> readOrthographic(ParamReader& in, const AnimatedTransform& place,
+                                         Point2i resolution) {
   OrthographicCamera::Params p;
   p.fullResolution = resolution;
   p.screenWindow = readScreenWindow(in, resolution);
@@ -89,23 +91,26 @@ constexpr std::array<Plugin<ReadCamera>, 3> kCameras = {
 
 }  // namespace
 
-std::unique_ptr<Camera> readCamera(SceneDescription& scene, Point2i fullResolution, Diagnostics& diagnostics) {
+std::unique_ptr<Camera> readCamera(SceneDescription& scene, Point2i fullResolution,
+                                   Diagnostics& diagnostics) {
   CameraDescription& entity = scene.camera;
-  const AnimatedTransform place(entity.worldFromCamera->start, scene.transformStartTime, entity.worldFromCamera->end,
-                                scene.transformEndTime);
+  const AnimatedTransform place(entity.worldFromCamera->start, scene.transformStartTime,
+                                entity.worldFromCamera->end, scene.transformEndTime);
   if (place.start().isSingular() || place.end().isSingular()) {
     diagnostics.error(entity.location, "Camera: the transformation is singular: it has no inverse");
     return nullptr;
   }
   if (cameraScales(place)) {
-    diagnostics.warning(entity.location,
-                        "Camera: the transformation scales; focal distance and lens radius are in camera units");
+    diagnostics.warning(
+        entity.location,
+        "Camera: the transformation scales; focal distance and lens radius are in camera units");
   }
   if (!entity.given) entity.type = "perspective";
   const auto* plugin = findPlugin<ReadCamera>(kCameras, entity, "Camera", diagnostics);
   if (plugin == nullptr) {
     // There is no picture without a camera, --lenient or not.
-    if (diagnostics.lenient) diagnostics.error(entity.typeLocation, "Camera: nothing can be rendered without a camera");
+    if (diagnostics.lenient)
+      diagnostics.error(entity.typeLocation, "Camera: nothing can be rendered without a camera");
     return nullptr;
   }
   ParamReader in(entity, diagnostics, "Camera \"" + entity.type + "\"");

@@ -31,7 +31,8 @@ void readAccelerator(Entity& entity, Diagnostics& diagnostics) {
           in.findInt("maxnodeprims", 4, Range::atLeast(1));
         }},
        {"kdtree", [](ParamReader& in) {
-          for (const std::string_view name : {"intersectcost", "traversalcost", "maxprims", "maxdepth"}) in.findInt(name, 1);
+          for (const std::string_view name : {"intersectcost", "traversalcost", "maxprims", "maxdepth"})
+            in.findInt(name, 1);
           in.findFloat("emptybonus", 0.5f);
         }}}};
   const auto* plugin = findPlugin<Read>(kAccelerators, entity, "Accelerator", diagnostics);
@@ -47,13 +48,14 @@ std::optional<const Medium*> cameraMediumOf(const SceneDescription& scene, const
   return world.medium(scene.cameraMedium.index);
 }
 
-CameraMedium findCameraMedium(const SceneDescription& scene, const Construction& made, const WorldBuilder& world,
-                              Diagnostics& diagnostics) {
+CameraMedium findCameraMedium(const SceneDescription& scene, const Construction& made,
+                              const WorldBuilder& world, Diagnostics& diagnostics) {
   if (!made.scene->hasMediumBoundaries() && scene.cameraMedium.name.empty()) return {};
   const float middle = 0.5f;
-  const Camera::WeightedRay central = made.camera->generateRay(
-      {static_cast<float>(made.film->settings().resolution.x) / 2, static_cast<float>(made.film->settings().resolution.y) / 2},
-      {0.5f, 0.5f}, middle);
+  const Camera::WeightedRay central =
+      made.camera->generateRay({static_cast<float>(made.film->settings().resolution.x) / 2,
+                                static_cast<float>(made.film->settings().resolution.y) / 2},
+                               {0.5f, 0.5f}, middle);
   CameraMedium medium(*made.scene, central.ray.o, central.ray.time, cameraMediumOf(scene, world));
   for (const std::string& warning : medium.warnings()) {
     const bool isGiven = scene.cameraMedium.location.file != nullptr;
@@ -64,7 +66,8 @@ CameraMedium findCameraMedium(const SceneDescription& scene, const Construction&
 
 }  // namespace
 
-std::optional<Construction> construct(SceneDescription& scene, const ConstructOptions& options, Diagnostics& diagnostics) {
+std::optional<Construction> construct(SceneDescription& scene, const ConstructOptions& options,
+                                      Diagnostics& diagnostics) {
   const std::size_t errorsBefore = diagnostics.errorCount();
   FilmPlan film = readFilm(scene, options, diagnostics);
   Construction made;

@@ -31,8 +31,9 @@ struct Construction {
 };
 
 /// Turns a description into objects. First everything is read and checked, so that all problems stand in
-/// `diagnostics` together; only without errors anything heavy starts, and only what is referred to is built. Takes the
-/// large arrays out of `scene`. Nothing when there were errors. Throws nothing for broken input.
-std::optional<Construction> construct(SceneDescription& scene, const ConstructOptions& options, Diagnostics& diagnostics);
+/// `diagnostics` together; only without errors anything heavy starts, and only what is referred to is built.
+/// Takes the large arrays out of `scene`. Nothing when there were errors. Throws nothing for broken input.
+std::optional<Construction> construct(SceneDescription& scene, const ConstructOptions& options,
+                                      Diagnostics& diagnostics);
 
 }  // namespace pbrtmedia

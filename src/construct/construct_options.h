@@ -12,8 +12,8 @@ namespace pbrtmedia {
 struct ConstructOptions {
   std::optional<std::filesystem::path> outfile;    ///< overrides Film "filename"
   std::optional<std::array<float, 4>> cropWindow;  ///< x0 x1 y0 y1; a Film "cropwindow" wins over it
-  bool quick = false;                              ///< resolution / 4, one sample per pixel (random: as asked)
-  std::optional<std::int64_t> samplesPerPixel;     ///< overrides the sampler's
+  bool quick = false;                           ///< resolution / 4, one sample per pixel (random: as asked)
+  std::optional<std::int64_t> samplesPerPixel;  ///< overrides the sampler's
   std::uint64_t seed = 0;
 };
 

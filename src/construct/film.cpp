@@ -22,7 +22,8 @@ constexpr int kMaxResolution = 1 << 20;  // pixels per axis: far above any displ
 using ReadFilter = std::unique_ptr<Filter> (*)(ParamReader&);
 
 Vector2f readRadius(ParamReader& in, Vector2f fallback) {
-  return {in.findFloat("xwidth", fallback.x, Range::positive()), in.findFloat("ywidth", fallback.y, Range::positive())};
+  return {in.findFloat("xwidth", fallback.x, Range::positive()),
+          in.findFloat("ywidth", fallback.y, Range::positive())};
 }
 
 std::unique_ptr<Filter> readBox(ParamReader& in) {
@@ -30,7 +31,8 @@ std::unique_ptr<Filter> readBox(ParamReader& in) {
 }
 
 std::unique_ptr<Filter> readTriangle(ParamReader& in) {
-  return std::make_unique<TriangleFilter>(TriangleFilter::Params{.radius = readRadius(in, TriangleFilter::Params{}.radius)});
+  return std::make_unique<TriangleFilter>(
+      TriangleFilter::Params{.radius = readRadius(in, TriangleFilter::Params{}.radius)});
 }
 
 std::unique_ptr<Filter> readGaussian(ParamReader& in) {
@@ -81,16 +83,19 @@ void setCropWindow(Film::Settings& settings, std::span<const float> c) {
 }
 
 /// Whether the image could be written, found out before hours of rendering.
-void checkOutfile(const std::filesystem::path& path, const SourceLocation& location, Diagnostics& diagnostics) {
+void checkOutfile(const std::filesystem::path& path, const SourceLocation& location,
+                  Diagnostics& diagnostics) {
   if (!isWritableImageName(path)) {
-    diagnostics.error(location, "output \"" + path.string() + "\": unknown image format \"" + path.extension().string() +
-                                    "\"; known: .exr, .png, .pfm, .tga");
+    diagnostics.error(location, "output \"" + path.string() + "\": unknown image format \"" +
+                                    path.extension().string() + "\"; known: .exr, .png, .pfm, .tga");
     return;
   }
   std::error_code error;
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  const std::filesystem::path folder =
+      path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder, error)) {
-    diagnostics.error(location, "output \"" + path.string() + "\": folder \"" + folder.string() + "\" does not exist");
+    diagnostics.error(location,
+                      "output \"" + path.string() + "\": folder \"" + folder.string() + "\" does not exist");
   } else if (std::filesystem::is_directory(path, error)) {
     diagnostics.error(location, "output \"" + path.string() + "\" is a folder");
   }
@@ -104,18 +109,20 @@ FilmPlan readFilm(SceneDescription& scene, const ConstructOptions& options, Diag
   Entity& entity = scene.film;
   if (entity.given && entity.type != "image") {
     constexpr std::string_view kKnown[] = {"image"};
-    diagnostics.error(entity.typeLocation, "Film: unknown type \"" + entity.type + "\"" + suggestion(entity.type, kKnown));
+    diagnostics.error(entity.typeLocation,
+                      "Film: unknown type \"" + entity.type + "\"" + suggestion(entity.type, kKnown));
     return plan;
   }
   ParamReader in(entity, diagnostics, "Film \"image\"");
   Film::Settings& s = plan.settings;
   const Range resolution = Range::closed(1, kMaxResolution);
-  s.resolution = {in.findInt("xresolution", s.resolution.x, resolution), in.findInt("yresolution", s.resolution.y, resolution)};
+  s.resolution = {in.findInt("xresolution", s.resolution.x, resolution),
+                  in.findInt("yresolution", s.resolution.y, resolution)};
   if (options.quick) s.resolution = {std::max(1, s.resolution.x / 4), std::max(1, s.resolution.y / 4)};
   s.scale = in.findFloat("scale", s.scale);
   s.maxSampleLuminance = in.findFloat("maxsampleluminance", s.maxSampleLuminance, Range::positive());
-  // Only the realistic camera of PBRT-v3 uses it, which this renderer does not have: read, so that scenes that
-  // give it load.
+  // Only the realistic camera of PBRT-v3 uses it, which this renderer does not have: read, so that scenes
+  // that give it load.
   in.findFloat("diagonal", 35, Range::positive());
   if (options.cropWindow) setCropWindow(s, *options.cropWindow);
   if (in.has(ParamKind::Float, "cropwindow")) {
@@ -123,13 +130,15 @@ FilmPlan readFilm(SceneDescription& scene, const ConstructOptions& options, Diag
     if (crop.size() == 4) {
       setCropWindow(s, crop);
     } else {
-      in.error(ParamKind::Float, "cropwindow", "found " + std::to_string(crop.size()) + " numbers, expected 4: x0 x1 y0 y1");
+      in.error(ParamKind::Float, "cropwindow",
+               "found " + std::to_string(crop.size()) + " numbers, expected 4: x0 x1 y0 y1");
     }
   }
   const std::string filename = in.findString("filename", "pbrt.exr");
   const bool named = in.has(ParamKind::String, "filename");
   plan.outfile = options.outfile ? *options.outfile : std::filesystem::path(filename);
-  checkOutfile(plan.outfile, !options.outfile && named ? in.locationOf(ParamKind::String, "filename") : SourceLocation{},
+  checkOutfile(plan.outfile,
+               !options.outfile && named ? in.locationOf(ParamKind::String, "filename") : SourceLocation{},
                diagnostics);
   in.reportUnused();
   return plan;

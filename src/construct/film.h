@@ -17,8 +17,8 @@ struct FilmPlan {
   std::unique_ptr<Filter> filter;
 };
 
-/// Reads Film and PixelFilter. Problems go to `diagnostics`; the plan is then incomplete (filter may be null). The
-/// output's format and folder are checked here, before anything is rendered.
+/// Reads Film and PixelFilter. Problems go to `diagnostics`; the plan is then incomplete (filter may be
+/// null). The output's format and folder are checked here, before anything is rendered.
 FilmPlan readFilm(SceneDescription& scene, const ConstructOptions& options, Diagnostics& diagnostics);
 
 }  // namespace pbrtmedia

@@ -30,7 +30,8 @@ PathParams readPathParams(ParamReader& in) {
 /// Null for a scene without lights.
 std::unique_ptr<const LightSelector> selectorFor(const Scene& scene, const PathParams& p) {
   if (scene.lights().empty()) return nullptr;
-  return makeLightSelector(lightStrategyOfName(p.lightSampleStrategy).value(), scene.lights(), scene.bounds());
+  return makeLightSelector(lightStrategyOfName(p.lightSampleStrategy).value(), scene.lights(),
+                           scene.bounds());
 }
 
 IntegratorPlan readPath(ParamReader& in) {
@@ -44,7 +45,8 @@ IntegratorPlan readPath(ParamReader& in) {
 IntegratorPlan readVolPath(ParamReader& in) {
   const PathParams p = readPathParams(in);
   return {[=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
-            return std::make_unique<VolPathIntegrator>(scene, p, selectorFor(scene, p), std::move(cameraMedium));
+            return std::make_unique<VolPathIntegrator>(scene, p, selectorFor(scene, p),
+                                                       std::move(cameraMedium));
           },
           true, std::nullopt};
 }
@@ -70,15 +72,18 @@ IntegratorPlan readWhitted(ParamReader& in) {
           false, std::nullopt};
 }
 
-constexpr std::array<Plugin<ReadIntegrator>, 4> kIntegrators = {
-    {{"path", readPath}, {"volpath", readVolPath}, {"directlighting", readDirectLighting}, {"whitted", readWhitted}}};
+constexpr std::array<Plugin<ReadIntegrator>, 4> kIntegrators = {{{"path", readPath},
+                                                                 {"volpath", readVolPath},
+                                                                 {"directlighting", readDirectLighting},
+                                                                 {"whitted", readWhitted}}};
 
 /// x0 x1 y0 y1 in pixels, upper exclusive.
 std::optional<Bounds2i> readPixelBounds(ParamReader& in) {
   if (!in.has(ParamKind::Integer, "pixelbounds")) return std::nullopt;
   const std::span<const int> b = in.ints("pixelbounds");
   if (b.size() != 4) {
-    in.error(ParamKind::Integer, "pixelbounds", "found " + std::to_string(b.size()) + " numbers, expected 4: x0 x1 y0 y1");
+    in.error(ParamKind::Integer, "pixelbounds",
+             "found " + std::to_string(b.size()) + " numbers, expected 4: x0 x1 y0 y1");
     return std::nullopt;
   }
   const Bounds2i bounds{{b[0], b[2]}, {b[1], b[3]}};

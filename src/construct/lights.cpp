@@ -111,7 +111,8 @@ DiffuseAreaLight::Params readDiffuse(ParamReader& in, bool quick) {
   return p;
 }
 
-constexpr std::array<Plugin<ReadAreaLight>, 2> kAreaLights = {{{"diffuse", readDiffuse}, {"area", readDiffuse}}};
+constexpr std::array<Plugin<ReadAreaLight>, 2> kAreaLights = {
+    {{"diffuse", readDiffuse}, {"area", readDiffuse}}};
 
 }  // namespace
 
@@ -120,7 +121,8 @@ std::optional<LightPlan> readLight(LightDescription& light, bool quick, Diagnost
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(light, diagnostics, "LightSource \"" + light.type + "\"");
   if (light.ctm->isAnimated()) {
-    diagnostics.warning(light.location, in.context() + ": lights do not move; the transformation of the start time is used");
+    diagnostics.warning(light.location,
+                        in.context() + ": lights do not move; the transformation of the start time is used");
   }
   if (light.ctm->start.isSingular()) {
     in.error("the transformation is singular: it has no inverse");

@@ -76,7 +76,8 @@ Make readMirror(Texturable& in) {
   const auto bump = in.optionalFloat("bumpmap");
   return [=](Materials& m) {
     Textures& t = m.textures();
-    return std::make_unique<MirrorMaterial>(MirrorParams{.kr = t.rgbTexture(kr), .bumpMap = t.floatTexture(bump)});
+    return std::make_unique<MirrorMaterial>(
+        MirrorParams{.kr = t.rgbTexture(kr), .bumpMap = t.floatTexture(bump)});
   };
 }
 
@@ -175,14 +176,16 @@ Make readMix(Texturable& in) {
     }
     const std::vector<std::string> owned = NameScope::names(in.scope(), NameScope::Kind::Material);
     const std::vector<std::string_view> known(owned.begin(), owned.end());
-    in.own().error(ParamKind::String, kNames[i], "unknown material \"" + *name + "\"" + suggestion(*name, known));
+    in.own().error(ParamKind::String, kNames[i],
+                   "unknown material \"" + *name + "\"" + suggestion(*name, known));
     complete = false;
   }
   if (!complete) return {};
   return [=](Materials& m) -> std::unique_ptr<Material> {
     const Material* first = m.buildShared(parts[0]);
     const Material* second = m.buildShared(parts[1]);
-    if (first == nullptr || second == nullptr) throw std::invalid_argument("cannot mix with a material of type \"none\"");
+    if (first == nullptr || second == nullptr)
+      throw std::invalid_argument("cannot mix with a material of type \"none\"");
     return std::make_unique<MixMaterial>(*first, *second, *m.textures().rgbTexture(amount));
   };
 }
@@ -222,7 +225,8 @@ Materials::Materials(SceneDescription& scene, Textures& textures, Diagnostics& d
   }
 }
 
-Materials::Use Materials::readForShape(const ShapeDescription& shape, ParamReader& in, Diagnostics& diagnostics) {
+Materials::Use Materials::readForShape(const ShapeDescription& shape, ParamReader& in,
+                                       Diagnostics& diagnostics) {
   Use use;
   use.material = shape.material;
   if (shape.material == kNone) {
@@ -264,9 +268,9 @@ const Material* Materials::keep(std::unique_ptr<Material> material) {
 const Material* Materials::buildShared(std::int32_t index) {
   if (index == kNone) {
     if (default_ == nullptr) {
-      default_ = keep(std::make_unique<MatteMaterial>(
-          MatteParams{.kd = textures_.rgbTexture(TextureUse<Rgb>{TextureUse<Rgb>::kConstant, Rgb(0.5f)}),
-                      .sigma = textures_.floatTexture(TextureUse<float>{TextureUse<float>::kConstant, 0.0f})}));
+      default_ = keep(std::make_unique<MatteMaterial>(MatteParams{
+          .kd = textures_.rgbTexture(TextureUse<Rgb>{TextureUse<Rgb>::kConstant, Rgb(0.5f)}),
+          .sigma = textures_.floatTexture(TextureUse<float>{TextureUse<float>::kConstant, 0.0f})}));
     }
     return default_;
   }

@@ -14,8 +14,8 @@
 
 namespace pbrtmedia {
 
-/// All materials of a scene: read and checked at once, built when first used. A shape that overrides parameters gets a
-/// material of its own, every other shape shares the one of its Material directive.
+/// All materials of a scene: read and checked at once, built when first used. A shape that overrides
+/// parameters gets a material of its own, every other shape shares the one of its Material directive.
 class Materials {
  public:
   /// How a material is made once its textures exist; empty for "no material".

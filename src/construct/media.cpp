@@ -26,15 +26,18 @@ void readCommon(ParamReader& in, const MediumDescription& medium, Params& p) {
     } else {
       std::vector<std::string_view> names;
       for (const MediumPreset& known : mediumPresets()) names.push_back(known.name);
-      in.diagnostics().lenientError(in.locationOf(ParamKind::String, "preset"),
-                                    in.context() + ": unknown preset \"" + *name + "\"" + suggestion(*name, names));
+      in.diagnostics().lenientError(
+          in.locationOf(ParamKind::String, "preset"),
+          in.context() + ": unknown preset \"" + *name + "\"" + suggestion(*name, names));
     }
   }
   const float scale = in.findFloat("scale", 1, Range::nonNegative());
   p.sigmaA = in.findSpectrum("sigma_a", p.sigmaA) * scale;
   p.sigmaS = in.findSpectrum("sigma_s", p.sigmaS) * scale;
-  for (const auto& [name, sigma] : {std::pair<std::string_view, Rgb>{"sigma_a", p.sigmaA}, {"sigma_s", p.sigmaS}}) {
-    if (sigma.min() < 0) in.error(ParamKind::Spectrum, name, "found a negative coefficient, expected numbers >= 0");
+  for (const auto& [name, sigma] :
+       {std::pair<std::string_view, Rgb>{"sigma_a", p.sigmaA}, {"sigma_s", p.sigmaS}}) {
+    if (sigma.min() < 0)
+      in.error(ParamKind::Spectrum, name, "found a negative coefficient, expected numbers >= 0");
   }
   p.g = in.findFloat("g", p.g, Range::open(-1, 1));
 
@@ -83,8 +86,9 @@ std::optional<MediumPlan> readHeterogeneous(ParamReader& in, const MediumDescrip
                                static_cast<std::size_t>(p->grid.nz);
   if (found != expected) {
     in.error(ParamKind::Float, "density",
-             "found " + std::to_string(found) + " values, expected nx*ny*nz = " + std::to_string(p->grid.nx) + "*" +
-                 std::to_string(p->grid.ny) + "*" + std::to_string(p->grid.nz) + " = " + std::to_string(expected));
+             "found " + std::to_string(found) + " values, expected nx*ny*nz = " + std::to_string(p->grid.nx) +
+                 "*" + std::to_string(p->grid.ny) + "*" + std::to_string(p->grid.nz) + " = " +
+                 std::to_string(expected));
     return std::nullopt;
   }
   p->grid.density = in.takeFloats("density");
@@ -92,8 +96,8 @@ std::optional<MediumPlan> readHeterogeneous(ParamReader& in, const MediumDescrip
     if (p->grid.density[i] >= 0) continue;
     const std::size_t nx = static_cast<std::size_t>(p->grid.nx), ny = static_cast<std::size_t>(p->grid.ny);
     in.error(ParamKind::Float, "density",
-             "voxel (" + std::to_string(i % nx) + ", " + std::to_string(i / nx % ny) + ", " + std::to_string(i / (nx * ny)) +
-                 ") is negative: " + std::to_string(p->grid.density[i]));
+             "voxel (" + std::to_string(i % nx) + ", " + std::to_string(i / nx % ny) + ", " +
+                 std::to_string(i / (nx * ny)) + ") is negative: " + std::to_string(p->grid.density[i]));
     return std::nullopt;
   }
   return [p, place = medium.ctm->start] {
@@ -114,7 +118,8 @@ std::optional<MediumPlan> readMedium(MediumDescription& medium, Diagnostics& dia
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(medium, diagnostics, context);
   if (medium.ctm->isAnimated()) {
-    diagnostics.warning(medium.location, context + ": media do not move; the transformation of the start time is used");
+    diagnostics.warning(medium.location,
+                        context + ": media do not move; the transformation of the start time is used");
   }
   if (medium.ctm->start.isSingular()) {
     in.error("the transformation is singular: it has no inverse");
@@ -123,7 +128,9 @@ std::optional<MediumPlan> readMedium(MediumDescription& medium, Diagnostics& dia
   std::optional<MediumPlan> plan = plugin->read(in, medium);
   in.reportUnused();
   if (!plan) return std::nullopt;
-  return [plan = std::move(*plan), location = medium.location, context] { return builtAt(location, context, plan); };
+  return [plan = std::move(*plan), location = medium.location, context] {
+    return builtAt(location, context, plan);
+  };
 }
 
 }  // namespace pbrtmedia

@@ -10,8 +10,8 @@
 
 namespace pbrtmedia {
 
-/// A medium whose parameters are checked; `make` builds the grid and its bounds. Call it once: it takes the density
-/// out of the description. May throw SceneError.
+/// A medium whose parameters are checked; `make` builds the grid and its bounds. Call it once: it takes the
+/// density out of the description. May throw SceneError.
 using MediumPlan = std::function<std::unique_ptr<Medium>()>;
 
 /// Reads a MakeNamedMedium. Nothing for an unknown type or after an error.

@@ -20,19 +20,20 @@ struct Plugin {
   Read read;
 };
 
-/// The entry named by the entity's type. An unknown name is reported with the nearest ones (--lenient: a warning)
-/// and gives null. `kind` starts the message: "Camera", "texture class", …
+/// The entry named by the entity's type. An unknown name is reported with the nearest ones (--lenient: a
+/// warning) and gives null. `kind` starts the message: "Camera", "texture class", …
 template <class Read>
-const Plugin<Read>* findPlugin(std::span<const Plugin<Read>> table, const Entity& entity, std::string_view kind,
-                               Diagnostics& diagnostics) {
+const Plugin<Read>* findPlugin(std::span<const Plugin<Read>> table, const Entity& entity,
+                               std::string_view kind, Diagnostics& diagnostics) {
   std::vector<std::string_view> names;
   for (const Plugin<Read>& plugin : table) {
     if (plugin.name == entity.type) return &plugin;
     names.push_back(plugin.name);
   }
   const bool hasTypeLocation = entity.typeLocation.file != nullptr;
-  diagnostics.lenientError(hasTypeLocation ? entity.typeLocation : entity.location,
-                           std::string(kind) + ": unknown type \"" + entity.type + "\"" + suggestion(entity.type, names));
+  diagnostics.lenientError(
+      hasTypeLocation ? entity.typeLocation : entity.location,
+      std::string(kind) + ": unknown type \"" + entity.type + "\"" + suggestion(entity.type, names));
   return nullptr;
 }
 

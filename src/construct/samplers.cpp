@@ -19,7 +19,8 @@ namespace {
 using ReadSampler = std::unique_ptr<Sampler> (*)(ParamReader&, const ConstructOptions&);
 
 /// --spp, else 1 for --quick, else "pixelsamples".
-std::int64_t readPixelSamples(ParamReader& in, const ConstructOptions& options, std::int64_t fallback, bool quickIsOne = true) {
+std::int64_t readPixelSamples(ParamReader& in, const ConstructOptions& options, std::int64_t fallback,
+                              bool quickIsOne = true) {
   const std::int64_t asked = in.findInt("pixelsamples", static_cast<int>(fallback), Range::atLeast(1));
   if (options.samplesPerPixel) return *options.samplesPerPixel;
   return options.quick && quickIsOne ? 1 : asked;
@@ -93,12 +94,14 @@ constexpr std::array<Plugin<ReadSampler>, 7> kSamplers = {{{"halton", readHalton
 
 }  // namespace
 
-std::unique_ptr<Sampler> readSampler(SceneDescription& scene, const ConstructOptions& options, Diagnostics& diagnostics) {
+std::unique_ptr<Sampler> readSampler(SceneDescription& scene, const ConstructOptions& options,
+                                     Diagnostics& diagnostics) {
   Entity& entity = scene.sampler;
   if (!entity.given) entity.type = "halton";
   const auto* plugin = findPlugin<ReadSampler>(kSamplers, entity, "Sampler", diagnostics);
   if (plugin == nullptr) {
-    if (diagnostics.lenient) diagnostics.error(entity.typeLocation, "Sampler: nothing can be rendered without a sampler");
+    if (diagnostics.lenient)
+      diagnostics.error(entity.typeLocation, "Sampler: nothing can be rendered without a sampler");
     return nullptr;
   }
   ParamReader in(entity, diagnostics, "Sampler \"" + entity.type + "\"");
@@ -109,12 +112,14 @@ std::unique_ptr<Sampler> readSampler(SceneDescription& scene, const ConstructOpt
   } catch (const SceneError& e) {
     if (diagnostics.errorCount() == before) diagnostics.add(e);
   }
-  if (sampler != nullptr && diagnostics.errorCount() == before && !options.samplesPerPixel && !options.quick) {
+  if (sampler != nullptr && diagnostics.errorCount() == before && !options.samplesPerPixel &&
+      !options.quick) {
     const Param* asked = in.find(ParamKind::Integer, "pixelsamples");
     const auto* counts = asked != nullptr ? std::get_if<std::vector<int>>(&asked->values) : nullptr;
     if (counts != nullptr && counts->size() == 1 && counts->front() != sampler->samplesPerPixel()) {
       diagnostics.warning(in.locationOf(ParamKind::Integer, "pixelsamples"),
-                          in.context() + ": " + std::to_string(counts->front()) + " samples per pixel are rounded up to " +
+                          in.context() + ": " + std::to_string(counts->front()) +
+                              " samples per pixel are rounded up to " +
                               std::to_string(sampler->samplesPerPixel()) + ", a power of two");
     }
   }

@@ -10,6 +10,7 @@
 namespace pbrtmedia {
 
 /// Reads Sampler and makes it. Null after an error.
-std::unique_ptr<Sampler> readSampler(SceneDescription& scene, const ConstructOptions& options, Diagnostics& diagnostics);
+std::unique_ptr<Sampler> readSampler(SceneDescription& scene, const ConstructOptions& options,
+                                     Diagnostics& diagnostics);
 
 }  // namespace pbrtmedia

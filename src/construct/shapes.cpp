@@ -96,7 +96,9 @@ void readAlpha(const ShapeInput& input, ShapePlan& plan) {
   plan.alpha = texturable.optionalFloat("alpha");
   plan.shadowAlpha = texturable.optionalFloat("shadowalpha");
   // Only exactly 0 cuts, so any other constant is no cut at all.
-  const auto isOpaque = [](const std::optional<TextureUse<float>>& a) { return a && a->isConstant() && a->constant != 0; };
+  const auto isOpaque = [](const std::optional<TextureUse<float>>& a) {
+    return a && a->isConstant() && a->constant != 0;
+  };
   if (isOpaque(plan.alpha)) plan.alpha.reset();
   if (isOpaque(plan.shadowAlpha)) plan.shadowAlpha.reset();
 }
@@ -118,8 +120,9 @@ bool report(const ShapeInput& input, const std::vector<MeshProblem>& problems) {
       input.in.error(kindOf(problem.parameter), problem.parameter, problem.message);
       usable = false;
     } else {
-      input.in.diagnostics().warning(input.in.locationOf(kindOf(problem.parameter), problem.parameter),
-                                     input.in.context() + ": parameter \"" + problem.parameter + "\": " + problem.message);
+      input.in.diagnostics().warning(
+          input.in.locationOf(kindOf(problem.parameter), problem.parameter),
+          input.in.context() + ": parameter \"" + problem.parameter + "\": " + problem.message);
     }
   }
   return usable;
@@ -134,7 +137,8 @@ std::vector<Point2f> takeUv(ParamReader& in) {
     if (!in.has(ParamKind::Float, name)) continue;
     const std::span<const float> numbers = in.floats(name);
     if (numbers.size() % 2 != 0) {
-      in.error(ParamKind::Float, name, "found " + std::to_string(numbers.size()) + " numbers, expected pairs");
+      in.error(ParamKind::Float, name,
+               "found " + std::to_string(numbers.size()) + " numbers, expected pairs");
     }
     std::vector<Point2f> uv(numbers.size() / 2);
     for (std::size_t i = 0; i < uv.size(); ++i) uv[i] = {numbers[2 * i], numbers[2 * i + 1]};
@@ -202,7 +206,8 @@ std::optional<ShapePlan> readLoopSubdivision(const ShapeInput& input) {
 
 std::optional<ShapePlan> readPlyMesh(const ShapeInput& input) {
   const auto file = input.in.findInputFile("filename");
-  if (!file && !input.in.has(ParamKind::String, "filename")) input.in.error("parameter \"filename\" is missing");
+  if (!file && !input.in.has(ParamKind::String, "filename"))
+    input.in.error("parameter \"filename\" is missing");
   ShapePlan plan;
   readAlpha(input, plan);
   if (!file) return std::nullopt;

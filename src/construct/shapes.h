@@ -10,15 +10,15 @@
 
 namespace pbrtmedia {
 
-/// A shape whose parameters are checked; `make` does the work (reads the file, subdivides, copies) and may throw
-/// SceneError. Call it once: it takes the arrays out of the description.
+/// A shape whose parameters are checked; `make` does the work (reads the file, subdivides, copies) and may
+/// throw SceneError. Call it once: it takes the arrays out of the description.
 struct ShapePlan {
   std::function<std::unique_ptr<Shape>(Diagnostics&)> make;
   std::optional<TextureUse<float>> alpha, shadowAlpha;
 };
 
-/// Reads a Shape. Nothing for an unknown type or after an error. `in` reads the shape's list; it may be handed on to
-/// the material before unused parameters are reported.
+/// Reads a Shape. Nothing for an unknown type or after an error. `in` reads the shape's list; it may be
+/// handed on to the material before unused parameters are reported.
 std::optional<ShapePlan> readShape(ShapeDescription& shape, ParamReader& in, Diagnostics& diagnostics);
 
 }  // namespace pbrtmedia

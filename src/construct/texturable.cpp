@@ -7,8 +7,8 @@
 namespace pbrtmedia {
 
 template <class T>
-std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope::Ptr& scope, std::string_view name,
-                                                Range range) {
+std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope::Ptr& scope,
+                                                std::string_view name, Range range) {
   constexpr bool kIsFloat = std::is_same_v<T, float>;
   constexpr ParamKind kKind = kIsFloat ? ParamKind::Float : ParamKind::Spectrum;
   constexpr auto kFlavour = kIsFloat ? NameScope::Kind::FloatTexture : NameScope::Kind::SpectrumTexture;
@@ -20,13 +20,16 @@ std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope
     const std::vector<std::string> owned = NameScope::names(scope, kFlavour);
     const std::vector<std::string_view> known(owned.begin(), owned.end());
     const bool otherFlavour =
-        NameScope::find(scope, kIsFloat ? NameScope::Kind::SpectrumTexture : NameScope::Kind::FloatTexture, *texture).has_value();
+        NameScope::find(scope, kIsFloat ? NameScope::Kind::SpectrumTexture : NameScope::Kind::FloatTexture,
+                        *texture)
+            .has_value();
     const std::string what = kIsFloat ? "float" : "spectrum";
     in.error(ParamKind::Texture, name,
              otherFlavour ? "texture \"" + *texture + "\" is a " + (kIsFloat ? "spectrum" : "float") +
                                 " texture, expected a " + what + " texture"
-             : known.empty() ? "unknown " + what + " texture \"" + *texture + "\"; none is defined here"
-                             : "unknown " + what + " texture \"" + *texture + "\"" + suggestion(*texture, known));
+             : known.empty()
+                 ? "unknown " + what + " texture \"" + *texture + "\"; none is defined here"
+                 : "unknown " + what + " texture \"" + *texture + "\"" + suggestion(*texture, known));
     return std::nullopt;
   }
   const Param* param = in.find(kKind, name);
@@ -36,8 +39,9 @@ std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope
     return std::nullopt;
   }
   if (param->size() > 1) {
-    in.diagnostics().lenientError(in.locationOf(kKind, name), in.context() + ": parameter \"" + std::string(name) + "\": found " +
-                                                                  std::to_string(param->size()) + " values, expected 1");
+    in.diagnostics().lenientError(in.locationOf(kKind, name),
+                                  in.context() + ": parameter \"" + std::string(name) + "\": found " +
+                                      std::to_string(param->size()) + " values, expected 1");
   }
   const T value = std::get<std::vector<T>>(param->values).front();
   if constexpr (kIsFloat) {

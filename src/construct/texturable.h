@@ -22,9 +22,9 @@ struct TextureUse {
   bool isConstant() const { return texture == kConstant; }
 };
 
-/// Looks parameters up in a shape's list first, then in the material's own (scene-language reference 3.3): texture in
-/// the shape's, constant in the shape's, texture in the own, constant in the own, default. Without a shape only the
-/// own list counts. Remembers whether the shape's list gave anything.
+/// Looks parameters up in a shape's list first, then in the material's own (scene-language reference 3.3):
+/// texture in the shape's, constant in the shape's, texture in the own, constant in the own, default. Without
+/// a shape only the own list counts. Remembers whether the shape's list gave anything.
 class Texturable {
  public:
   Texturable(ParamReader& own, NameScope::Ptr ownScope) : own_(own), ownScope_(std::move(ownScope)) {}
@@ -46,7 +46,8 @@ class Texturable {
 
  private:
   template <class T>
-  std::optional<TextureUse<T>> findIn(ParamReader& in, const NameScope::Ptr& scope, std::string_view name, Range range);
+  std::optional<TextureUse<T>> findIn(ParamReader& in, const NameScope::Ptr& scope, std::string_view name,
+                                      Range range);
   template <class T>
   std::optional<TextureUse<T>> find(std::string_view name, Range range);
 

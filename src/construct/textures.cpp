@@ -82,7 +82,8 @@ Mapping2d readMapping2d(ParamReader& in, const Transform& ctm) {
 }
 
 FractalParams readFractal(ParamReader& in) {
-  return {.octaves = in.findInt("octaves", 8, Range::closed(0, kMaxOctaves)), .roughness = in.findFloat("roughness", 0.5f)};
+  return {.octaves = in.findInt("octaves", 8, Range::closed(0, kMaxOctaves)),
+          .roughness = in.findFloat("roughness", 0.5f)};
 }
 
 template <class T>
@@ -133,8 +134,8 @@ Plan readCheckerboard(Texturable& in, const TextureDescription& d) {
     });
   }
   constexpr std::array<std::string_view, 2> kModes = {"closedform", "none"};
-  const auto filter =
-      in.own().findChoice("aamode", kModes, 0) == 0 ? CheckerboardFilter::ClosedForm : CheckerboardFilter::None;
+  const auto filter = in.own().findChoice("aamode", kModes, 0) == 0 ? CheckerboardFilter::ClosedForm
+                                                                    : CheckerboardFilter::None;
   const Mapping2d mapping = readMapping2d(in.own(), d.ctm->start);
   return planOf<T>([=](Textures& t) {
     return std::make_unique<Checkerboard2dTexture<T>>(mapping, resolve(t, tex1), resolve(t, tex2), filter);
@@ -187,7 +188,8 @@ Plan readImagemap(Texturable& in, const TextureDescription& d) {
   ImageTexelParams texels;
   texels.gamma = own.findBool("gamma", file && defaultGamma(*file));
   texels.scale = own.findFloat("scale", texels.scale);
-  texels.wrap = std::array{WrapMode::Repeat, WrapMode::Black, WrapMode::Clamp}[own.findChoice("wrap", kWraps, 0)];
+  texels.wrap =
+      std::array{WrapMode::Repeat, WrapMode::Black, WrapMode::Clamp}[own.findChoice("wrap", kWraps, 0)];
   ImageFilterParams filter;
   filter.trilinear = own.findBool("trilinear", filter.trilinear);
   filter.maxAnisotropy = own.findFloat("maxanisotropy", filter.maxAnisotropy, Range::closed(1, 1024));
@@ -234,13 +236,16 @@ Textures::Textures(SceneDescription& scene, Diagnostics& diagnostics) : scene_(s
     const std::string kind = std::string(isFloat ? "float" : "spectrum") + " texture \"" + d.name + "\"";
     const auto* plugin = isFloat ? findPlugin<ReadTexture>(kFloatTextures, d, kind, diagnostics)
                                  : findPlugin<ReadTexture>(kRgbTextures, d, kind, diagnostics);
-    if (plugin == nullptr) {  // with --lenient: what PBRT-v3 shows for a texture it does not have, the default
-      plans_[i] = isFloat ? planOf<float>([](Textures&) { return std::make_unique<ConstantTexture<float>>(1.0f); })
-                          : planOf<Rgb>([](Textures&) { return std::make_unique<ConstantTexture<Rgb>>(Rgb(1.0f)); });
+    if (plugin ==
+        nullptr) {  // with --lenient: what PBRT-v3 shows for a texture it does not have, the default
+      plans_[i] =
+          isFloat ? planOf<float>([](Textures&) { return std::make_unique<ConstantTexture<float>>(1.0f); })
+                  : planOf<Rgb>([](Textures&) { return std::make_unique<ConstantTexture<Rgb>>(Rgb(1.0f)); });
       continue;
     }
     if (d.ctm->isAnimated()) {
-      diagnostics.warning(d.location, kind + ": textures do not move; the transformation of the start time is used");
+      diagnostics.warning(d.location,
+                          kind + ": textures do not move; the transformation of the start time is used");
     }
     ParamReader in(d, diagnostics, kind);
     Texturable texturable(in, d.scope);
@@ -261,7 +266,8 @@ const FloatTexture* Textures::floatTexture(const TextureUse<float>& use) {
   const FloatTexture*& texture = builtFloats_[use.texture];
   if (texture == nullptr) {
     const TextureDescription& d = scene_.textures[use.texture];
-    auto made = builtAt(d.location, "texture \"" + d.name + "\"", [&] { return plans_[use.texture].makeFloat(*this); });
+    auto made = builtAt(d.location, "texture \"" + d.name + "\"",
+                        [&] { return plans_[use.texture].makeFloat(*this); });
     built_.floats.push_back(std::move(made));
     builtFloats_[use.texture] = built_.floats.back().get();
     ++builtCount_;
@@ -280,7 +286,8 @@ const RgbTexture* Textures::rgbTexture(const TextureUse<Rgb>& use) {
   }
   if (builtRgbs_[use.texture] == nullptr) {
     const TextureDescription& d = scene_.textures[use.texture];
-    auto made = builtAt(d.location, "texture \"" + d.name + "\"", [&] { return plans_[use.texture].makeRgb(*this); });
+    auto made =
+        builtAt(d.location, "texture \"" + d.name + "\"", [&] { return plans_[use.texture].makeRgb(*this); });
     built_.rgbs.push_back(std::move(made));
     builtRgbs_[use.texture] = built_.rgbs.back().get();
     ++builtCount_;
@@ -289,7 +296,8 @@ const RgbTexture* Textures::rgbTexture(const TextureUse<Rgb>& use) {
 }
 
 template <class T>
-std::shared_ptr<const MipMap<T>> Textures::pyramid(const std::filesystem::path& file, const ImageTexelParams& params) {
+std::shared_ptr<const MipMap<T>> Textures::pyramid(const std::filesystem::path& file,
+                                                   const ImageTexelParams& params) {
   auto& cache = [this]() -> PyramidCache<T>& {
     if constexpr (std::is_same_v<T, float>) {
       return floatPyramids_;
@@ -302,7 +310,9 @@ std::shared_ptr<const MipMap<T>> Textures::pyramid(const std::filesystem::path& 
   return entry;
 }
 
-template std::shared_ptr<const MipMap<float>> Textures::pyramid<float>(const std::filesystem::path&, const ImageTexelParams&);
-template std::shared_ptr<const MipMap<Rgb>> Textures::pyramid<Rgb>(const std::filesystem::path&, const ImageTexelParams&);
+template std::shared_ptr<const MipMap<float>> Textures::pyramid<float>(const std::filesystem::path&,
+                                                                       const ImageTexelParams&);
+template std::shared_ptr<const MipMap<Rgb>> Textures::pyramid<Rgb>(const std::filesystem::path&,
+                                                                   const ImageTexelParams&);
 
 }  // namespace pbrtmedia

@@ -29,7 +29,9 @@ class Textures {
   const FloatTexture* floatTexture(const std::optional<TextureUse<float>>& use) {
     return use ? floatTexture(*use) : nullptr;
   }
-  const RgbTexture* rgbTexture(const std::optional<TextureUse<Rgb>>& use) { return use ? rgbTexture(*use) : nullptr; }
+  const RgbTexture* rgbTexture(const std::optional<TextureUse<Rgb>>& use) {
+    return use ? rgbTexture(*use) : nullptr;
+  }
 
   std::size_t definedCount() const { return plans_.size(); }
   std::size_t builtCount() const { return builtCount_; }

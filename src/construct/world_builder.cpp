@@ -12,7 +12,8 @@ std::string contextOf(const ShapeDescription& shape) { return "Shape \"" + shape
 
 }  // namespace
 
-WorldBuilder::WorldBuilder(SceneDescription& scene, Textures& textures, Materials& materials, Diagnostics& diagnostics)
+WorldBuilder::WorldBuilder(SceneDescription& scene, Textures& textures, Materials& materials,
+                           Diagnostics& diagnostics)
     : scene_(scene), textures_(textures), materials_(materials), diagnostics_(diagnostics) {}
 
 void WorldBuilder::read(bool quick) {
@@ -32,10 +33,12 @@ void WorldBuilder::readShapes() {
     read.material = materials_.readForShape(shape, in, diagnostics_);
     if (read.plan) in.reportUnused();
     if (shape.areaLight != kNone && shape.ctm->isAnimated()) {
-      diagnostics_.warning(shape.location, contextOf(shape) + ": area lights on moving shapes are ignored, as in PBRT-v3");
-    } else if (shape.areaLight != kNone && shape.object != kNone) {
       diagnostics_.warning(shape.location,
-                           contextOf(shape) + ": an area light in an object is seen but lights nothing, as in PBRT-v3");
+                           contextOf(shape) + ": area lights on moving shapes are ignored, as in PBRT-v3");
+    } else if (shape.areaLight != kNone && shape.object != kNone) {
+      diagnostics_.warning(
+          shape.location,
+          contextOf(shape) + ": an area light in an object is seen but lights nothing, as in PBRT-v3");
     }
     shapes_.push_back(std::move(read));
   }
@@ -53,14 +56,16 @@ void WorldBuilder::markUsedObjects() {
     pending.pop_back();
     if (objectUsed_[object]) continue;
     objectUsed_[object] = true;
-    for (const std::uint32_t inner : scene_.objects[object].instances) pending.push_back(scene_.instances[inner].object);
+    for (const std::uint32_t inner : scene_.objects[object].instances)
+      pending.push_back(scene_.instances[inner].object);
   }
   for (const InstanceDescription& instance : scene_.instances) {
     if (instance.parent == kNone) placements += scene_.objects[instance.object].placedShapes;
   }
   if (placements > kMaxInstances) {
     diagnostics_.error(scene_.worldEnd, "nested objects multiply to " + std::to_string(placements) +
-                                            " placed shapes, expected at most " + std::to_string(kMaxInstances));
+                                            " placed shapes, expected at most " +
+                                            std::to_string(kMaxInstances));
   }
 }
 
@@ -105,7 +110,8 @@ Primitive WorldBuilder::buildPrimitive(std::size_t index, SceneBuilder& builder)
   Primitive primitive;
   primitive.shape =
       builder.own(builtAt(shape.location, contextOf(shape), [&] { return read.plan->make(diagnostics_); }));
-  primitive.material = builtAt(shape.location, contextOf(shape), [&] { return materials_.build(read.material); });
+  primitive.material =
+      builtAt(shape.location, contextOf(shape), [&] { return materials_.build(read.material); });
   primitive.media = {mediumOf(shape.media->inside), mediumOf(shape.media->outside)};
   primitive.alpha = textures_.floatTexture(read.plan->alpha);
   primitive.shadowAlpha = textures_.floatTexture(read.plan->shadowAlpha);
@@ -126,7 +132,8 @@ void WorldBuilder::placeShapes(SceneBuilder& builder) {
     std::vector<Primitive> alone;
     alone.push_back(std::move(primitive));
     builder.addInstance(builder.addObject(std::move(alone)),
-                        AnimatedTransform(shape.ctm->start, scene_.transformStartTime, shape.ctm->end, scene_.transformEndTime));
+                        AnimatedTransform(shape.ctm->start, scene_.transformStartTime, shape.ctm->end,
+                                          scene_.transformEndTime));
   }
 }
 
@@ -142,8 +149,9 @@ void WorldBuilder::placeObjects(SceneBuilder& builder) {
     for (const std::uint32_t shape : scene_.objects[i].shapes) {
       if (!shapes_[shape].plan) continue;
       if (scene_.shapes[shape].ctm->isAnimated()) {
-        throw SceneError(scene_.shapes[shape].location, contextOf(scene_.shapes[shape]) +
-                                                            ": a moving shape cannot stand in an object; move the instance");
+        throw SceneError(scene_.shapes[shape].location,
+                         contextOf(scene_.shapes[shape]) +
+                             ": a moving shape cannot stand in an object; move the instance");
       }
       Primitive primitive = buildPrimitive(shape, builder);
       if (!primitive.isInvisible()) primitives.push_back(std::move(primitive));
@@ -156,13 +164,15 @@ void WorldBuilder::placeObjects(SceneBuilder& builder) {
   }
 }
 
-void WorldBuilder::placeInstance(SceneBuilder& builder, const InstanceDescription& instance, const TransformPair& outer) {
+void WorldBuilder::placeInstance(SceneBuilder& builder, const InstanceDescription& instance,
+                                 const TransformPair& outer) {
   const TransformPair place{outer.start * instance.ctm->start, outer.end * instance.ctm->end};
   if (place.start.isSingular() || place.end.isSingular()) {
     throw SceneError(instance.location, "ObjectInstance: the transformation is singular: it has no inverse");
   }
-  builder.addInstance(objectNumber_[instance.object],
-                      AnimatedTransform(place.start, scene_.transformStartTime, place.end, scene_.transformEndTime));
+  builder.addInstance(
+      objectNumber_[instance.object],
+      AnimatedTransform(place.start, scene_.transformStartTime, place.end, scene_.transformEndTime));
   for (const std::uint32_t inner : scene_.objects[instance.object].instances) {
     placeInstance(builder, scene_.instances[inner], place);
   }
@@ -188,7 +198,9 @@ std::unique_ptr<Scene> WorldBuilder::build(bool withMedia) {
 
 void WorldBuilder::describe(const Textures& textures) {
   const auto line = [&](const std::string& what, std::size_t built, std::size_t defined) {
-    if (defined > 0) report_.push_back(what + ": " + std::to_string(built) + " built of " + std::to_string(defined) + " defined");
+    if (defined > 0)
+      report_.push_back(what + ": " + std::to_string(built) + " built of " + std::to_string(defined) +
+                        " defined");
   };
   line("textures", textures.builtCount(), textures.definedCount());
   line("materials", materials_.builtCount(), materials_.definedCount());

@@ -16,16 +16,16 @@
 
 namespace pbrtmedia {
 
-/// The world block: shapes, media, lights, objects and instances. `read` checks everything and builds nothing heavy;
-/// `build` makes what is referred to. The references must outlive it.
+/// The world block: shapes, media, lights, objects and instances. `read` checks everything and builds nothing
+/// heavy; `build` makes what is referred to. The references must outlive it.
 class WorldBuilder {
  public:
   WorldBuilder(SceneDescription& scene, Textures& textures, Materials& materials, Diagnostics& diagnostics);
 
   /// Problems go to the diagnostics.
   void read(bool quick);
-  /// After `read` without errors. `withMedia`: false leaves media out (the integrator cannot see them). Throws
-  /// SceneError for files that turn out to be broken.
+  /// After `read` without errors. `withMedia`: false leaves media out (the integrator cannot see them).
+  /// Throws SceneError for files that turn out to be broken.
   std::unique_ptr<Scene> build(bool withMedia);
 
   /// The built medium of that number; null for vacuum or one that nothing uses.

@@ -65,7 +65,8 @@ std::string samplesPerPixelText(const RenderStatistics& s) {
   return mean.str();
 }
 
-Image withHeader(Image image, const RenderStatistics& statistics, const Options& options, std::uint64_t sceneHash) {
+Image withHeader(Image image, const RenderStatistics& statistics, const Options& options,
+                 std::uint64_t sceneHash) {
   std::ostringstream hash, seconds;
   hash << std::hex << sceneHash;
   seconds << statistics.render.wall;
@@ -96,7 +97,8 @@ RenderResult renderImage(const Construction& scene, const Options& options, cons
 }
 
 /// One world: build, render, write. Sets `status` and returns the numbers.
-RenderStatistics renderWorld(SceneDescription& description, const Options& options, const PhaseTime& parseTime, int& status) {
+RenderStatistics renderWorld(SceneDescription& description, const Options& options,
+                             const PhaseTime& parseTime, int& status) {
   RenderStatistics statistics;
   statistics.scene = sceneNames(options);
   statistics.seed = options.seed;
@@ -142,7 +144,8 @@ RenderStatistics renderWorld(SceneDescription& description, const Options& optio
 
   std::cerr << describeFaults(result, options);
   if (!options.quiet) std::cerr << formatStatistics(statistics);
-  if (options.strict && (result.counters.droppedTotal() > 0 || result.counters.boundViolations > 0)) status = kExitStrict;
+  if (options.strict && (result.counters.droppedTotal() > 0 || result.counters.boundViolations > 0))
+    status = kExitStrict;
   return statistics;
 }
 

@@ -14,8 +14,8 @@
 namespace pbrtmedia {
 namespace {
 
-constexpr std::array<const char*, static_cast<std::size_t>(DropCause::kCount)> kDropNames = {"nan", "infinite",
-                                                                                              "negative"};
+constexpr std::array<const char*, static_cast<std::size_t>(DropCause::kCount)> kDropNames = {
+    "nan", "infinite", "negative"};
 
 nlohmann::ordered_json toJson(const PhaseTime& time) { return {{"wall", time.wall}, {"cpu", time.cpu}}; }
 
@@ -64,19 +64,22 @@ std::string formatStatistics(const RenderStatistics& s) {
   const RenderCounters& c = s.counters;
   std::ostringstream os;
   os.precision(3);
-  const auto phase = [](const PhaseTime& t) { return formatDuration(t.wall) + " (cpu " + formatDuration(t.cpu) + ")"; };
-  os << "  time      parse " << phase(s.parse) << ", construct " << phase(s.construct) << ", render " << phase(s.render)
-     << ", write " << phase(s.write) << '\n';
+  const auto phase = [](const PhaseTime& t) {
+    return formatDuration(t.wall) + " (cpu " + formatDuration(t.cpu) + ")";
+  };
+  os << "  time      parse " << phase(s.parse) << ", construct " << phase(s.construct) << ", render "
+     << phase(s.render) << ", write " << phase(s.write) << '\n';
   if (s.samplesTaken > 0) {
     os << "  samples   " << formatCount(static_cast<double>(s.samplesTaken)) << ", "
        << 1e6 * s.render.cpu / static_cast<double>(s.samplesTaken) << " us of CPU each\n";
   }
-  os << "  rays      " << formatCount(static_cast<double>(c.rays)) << " (" << perSample(c.rays, s) << " per sample), shadow "
-     << formatCount(static_cast<double>(c.shadowRays)) << '\n';
+  os << "  rays      " << formatCount(static_cast<double>(c.rays)) << " (" << perSample(c.rays, s)
+     << " per sample), shadow " << formatCount(static_cast<double>(c.shadowRays)) << '\n';
   if (c.densityLookups > 0) {
     os << "  media     " << formatCount(static_cast<double>(c.densityLookups)) << " density lookups ("
-       << perSample(c.densityLookups, s) << " per sample), " << formatCount(static_cast<double>(c.nullCollisions))
-       << " null collisions, " << formatCount(static_cast<double>(c.mediumScatterings)) << " scatterings\n";
+       << perSample(c.densityLookups, s) << " per sample), "
+       << formatCount(static_cast<double>(c.nullCollisions)) << " null collisions, "
+       << formatCount(static_cast<double>(c.mediumScatterings)) << " scatterings\n";
   }
   os << "  memory    " << formatCount(static_cast<double>(s.peakMemory)) << "B at most\n";
   return os.str();

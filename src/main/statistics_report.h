@@ -13,7 +13,7 @@ namespace pbrtmedia {
 
 /// What one render cost and met with.
 struct RenderStatistics {
-  std::string scene;    ///< file names as given
+  std::string scene;  ///< file names as given
   std::string outfile;
   std::uint64_t seed = 0;
   std::int64_t samplesPerPixel = 0;  ///< asked for

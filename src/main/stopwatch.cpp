@@ -19,7 +19,8 @@ double processCpuSeconds() {
 Stopwatch::Stopwatch() : wall_(std::chrono::steady_clock::now()), cpu_(processCpuSeconds()) {}
 
 PhaseTime Stopwatch::elapsed() const {
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(), processCpuSeconds() - cpu_};
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(),
+          processCpuSeconds() - cpu_};
 }
 
 std::size_t peakMemoryBytes() {

@@ -19,8 +19,8 @@ void describeDropped(const RenderResult& result, const Options& options, std::os
   }
   os << ".\n";
   for (const DroppedSample& d : result.dropped) {
-    os << "  pixel " << d.pixel.x << ' ' << d.pixel.y << ", sample " << d.sample << ", seed " << options.seed << ": "
-       << kCauses[static_cast<std::size_t>(d.cause)] << '\n';
+    os << "  pixel " << d.pixel.x << ' ' << d.pixel.y << ", sample " << d.sample << ", seed " << options.seed
+       << ": " << kCauses[static_cast<std::size_t>(d.cause)] << '\n';
   }
 }
 
@@ -31,12 +31,13 @@ std::string describeFaults(const RenderResult& result, const Options& options) {
   describeDropped(result, options, os);
   const RenderCounters& c = result.counters;
   if (c.boundViolations > 0) {
-    os << "pbrt: WARNING: " << c.boundViolations << " density lookups exceeded their bound, the worst by a factor of "
-       << c.worstBoundRatio << ".\n";
+    os << "pbrt: WARNING: " << c.boundViolations
+       << " density lookups exceeded their bound, the worst by a factor of " << c.worstBoundRatio << ".\n";
   }
   if (c.mediumMismatches > 0 && !options.quiet) {
     os << "pbrt: warning: " << c.mediumMismatches
-       << " boundary crossings name another medium than the ray was in; where boundaries overlap, give the media "
+       << " boundary crossings name another medium than the ray was in; where boundaries overlap, give the "
+          "media "
           "\"string overlap\" \"add\".\n";
     for (const MediumMismatch& m : result.mismatches) os << "  " << m.toString() << '\n';
   }

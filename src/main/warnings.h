@@ -8,8 +8,9 @@
 
 namespace pbrtmedia {
 
-/// What went wrong while rendering, as loud text for standard error: dropped samples by cause with the first of them
-/// (pixel, sample, seed), violated density bounds, boundaries that contradict each other. Empty when all was well.
+/// What went wrong while rendering, as loud text for standard error: dropped samples by cause with the first
+/// of them (pixel, sample, seed), violated density bounds, boundaries that contradict each other. Empty when
+/// all was well.
 std::string describeFaults(const RenderResult& result, const Options& options);
 
 }  // namespace pbrtmedia
