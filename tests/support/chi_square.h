@@ -56,12 +56,12 @@ struct ChiSquareTest {
   std::size_t degreesOfFreedom = 0;
   std::size_t pooledBins = 0;  ///< bins that were joined because their expectation was too small
   double observedTotal = 0, expectedTotal = 0;
-  bool impossible = false;  ///< something was counted where nothing is expected, or totals are nonsense
+  bool impossible =
+      false;  ///< something was counted where nothing is expected, or an expectation is not a number
 
   /// Probability of a statistic at least this large.
   double pValue() const {
     if (impossible || std::isnan(statistic)) return 0;
-    if (degreesOfFreedom == 0) return 1;
     return gammaQ(0.5 * static_cast<double>(degreesOfFreedom), 0.5 * statistic);
   }
   friend std::ostream& operator<<(std::ostream& os, const ChiSquareTest& t) {
@@ -75,8 +75,9 @@ struct ChiSquareTest {
 };
 
 /// Bins with an expected count below `minExpected` are pooled, smallest first; what is left of the last pool
-/// joins the next bin, so nothing is thrown away. `constraints`: how many numbers of the expectation were
-/// taken from the observations (1: only the total).
+/// joins the last bin, so nothing is thrown away. `constraints`: how many numbers of the expectation were
+/// taken from the observations (1: only the total). Throws std::invalid_argument when fewer bins than
+/// constraints + 1 are left: such a test could not fail.
 inline ChiSquareTest chiSquareTest(std::span<const double> observed, std::span<const double> expected,
                                    double minExpected = 5, std::size_t constraints = 1) {
   if (observed.size() != expected.size() || observed.empty())
@@ -88,11 +89,15 @@ inline ChiSquareTest chiSquareTest(std::span<const double> observed, std::span<c
                    [&](std::size_t a, std::size_t b) { return expected[a] < expected[b]; });
   double poolObserved = 0, poolExpected = 0, lastObserved = 0, lastExpected = 0;
   std::size_t used = 0, members = 0;
+  if (std::any_of(expected.begin(), expected.end(), [](double e) { return !(e >= 0); })) {
+    test.impossible = true;
+    return test;
+  }
   const auto term = [](double o, double e) { return (o - e) * (o - e) / e; };
   for (const std::size_t i : order) {
     test.observedTotal += observed[i];
     test.expectedTotal += expected[i];
-    if (!(expected[i] >= 0) || (expected[i] == 0 && observed[i] > 0)) test.impossible = true;
+    if (expected[i] == 0 && observed[i] > 0) test.impossible = true;
     poolObserved += observed[i];
     poolExpected += expected[i];
     ++members;
@@ -106,12 +111,15 @@ inline ChiSquareTest chiSquareTest(std::span<const double> observed, std::span<c
       members = 0;
     }
   }
-  if (members > 0 && used > 0) {  // bins are sorted, so this needs a nonsensical expectation (NaN)
+  if (members > 0 && used > 0) {
     test.statistic +=
         term(lastObserved + poolObserved, lastExpected + poolExpected) - term(lastObserved, lastExpected);
     test.pooledBins += members;
   }
-  test.degreesOfFreedom = used > constraints ? used - constraints : 0;
+  if (test.impossible) return test;
+  if (used <= constraints)
+    throw std::invalid_argument("chiSquareTest: too few expected counts to test anything");
+  test.degreesOfFreedom = used - constraints;
   return test;
 }
 
