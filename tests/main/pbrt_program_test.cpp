@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The program as a user meets it: options, exit codes, messages, files.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "image/image.h"
+#include "support/process.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+const std::string kScene =
+    "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 8 \"string filename\" \"named.exr\"\n"
+    "Sampler \"random\" \"integer pixelsamples\" 4\nIntegrator \"path\"\nWorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [ 0.5 0.25 1 ]\nWorldEnd\n";
+/// Long enough that nothing but a stop ends it.
+const std::string kEndless =
+    "Film \"image\" \"integer xresolution\" 64 \"integer yresolution\" 64 \"string filename\" \"endless.exr\"\n"
+    "Sampler \"random\" \"integer pixelsamples\" 100000000\nIntegrator \"path\"\nWorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [ 0.5 0.25 1 ]\nWorldEnd\n";
+
+class Pbrt : public testing::Test {
+ protected:
+  /// Runs pbrt in the temporary folder; `before` stands in front of the program ("timeout -s INT 1").
+  ProcessResult pbrt(const std::string& arguments, const std::string& before = "") const {
+    return run("cd '" + folder_.path().string() + "' && " + before + " '" PBRT_PROGRAM "' " + arguments);
+  }
+  Rgb firstPixel(const std::string& name) const { return readImage(folder_.path() / name).rgb(0, 0); }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Pbrt, RendersTheFileThatTheSceneNames) {
+  folder_.write("a.pbrt", kScene);
+  const ProcessResult r = pbrt("a.pbrt");
+  EXPECT_EQ(r.status, 0) << r.output;
+  const Image image = readImage(folder_.path() / "named.exr");
+  EXPECT_EQ(image.width(), 16);
+  EXPECT_EQ(image.height(), 8);
+  EXPECT_EQ(image.rgb(3, 3), Rgb(0.5f, 0.25f, 1));
+  EXPECT_EQ(folder_.fileCount(), 2u) << "no temporary file may stay";
+}
+
+TEST_F(Pbrt, WritesItsProvenanceIntoTheImage) {
+  folder_.write("a.pbrt", kScene);
+  ASSERT_EQ(pbrt("--seed 7 --nthreads=1 a.pbrt").status, 0);
+  const Image image = readImage(folder_.path() / "named.exr");
+  EXPECT_NE(image.metadata.at("command").find("--seed 7 --nthreads=1 a.pbrt"), std::string::npos);
+  EXPECT_EQ(image.metadata.at("seed"), "7");
+  EXPECT_EQ(image.metadata.at("samples"), "4");
+  EXPECT_FALSE(image.metadata.at("sceneHash").empty());
+  EXPECT_FALSE(image.metadata.at("seconds").empty());
+  EXPECT_FALSE(image.metadata.at("version").empty());
+}
+
+TEST_F(Pbrt, HashesTheSceneWithItsIncludes) {
+  const auto hashOf = [&](const std::string& light) {
+    folder_.write("light.pbrt", light);
+    folder_.write("a.pbrt", "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2\nWorldBegin\n"
+                            "Include \"light.pbrt\"\nWorldEnd\n");
+    const ProcessResult r = pbrt("--outfile h.exr a.pbrt");
+    EXPECT_EQ(r.status, 0) << r.output;
+    return readImage(folder_.path() / "h.exr").metadata.at("sceneHash");
+  };
+  const std::string one = hashOf("LightSource \"infinite\"\n");
+  EXPECT_EQ(one, hashOf("LightSource \"infinite\"\n"));
+  EXPECT_NE(one, hashOf("LightSource \"infinite\" \"rgb L\" [ 2 2 2 ]\n"));
+}
+
+TEST_F(Pbrt, TakesOptionsInEverySpelling) {
+  folder_.write("a.pbrt", kScene);
+  EXPECT_EQ(pbrt("-quick -nthreads 1 --outfile=x.exr a.pbrt").status, 0);
+  EXPECT_EQ(readImage(folder_.path() / "x.exr").width(), 4);
+  EXPECT_EQ(pbrt("--cropwindow 0 0.5 0 0.25 --outfile y.exr a.pbrt").status, 0);
+  EXPECT_EQ(readImage(folder_.path() / "y.exr").width(), 8);
+  EXPECT_EQ(readImage(folder_.path() / "y.exr").height(), 2);
+  EXPECT_EQ(pbrt("--spp 9 --outfile z.png a.pbrt").status, 0);
+  EXPECT_TRUE(folder_.has("z.png"));
+  for (const char* format : {"pfm", "tga"}) {
+    EXPECT_EQ(pbrt(std::string("--outfile f.") + format + " a.pbrt").status, 0);
+    EXPECT_TRUE(folder_.has(std::string("f.") + format));
+  }
+}
+
+TEST_F(Pbrt, ReadsStandardInput) {
+  folder_.write("a.pbrt", kScene);
+  EXPECT_EQ(pbrt("--outfile in.exr < a.pbrt").status, 0);
+  EXPECT_EQ(pbrt("--outfile dash.exr - < a.pbrt").status, 0);
+  EXPECT_TRUE(folder_.has("in.exr"));
+  EXPECT_TRUE(folder_.has("dash.exr"));
+}
+
+TEST_F(Pbrt, PrintsHelpAndEndsWell) {
+  const ProcessResult r = pbrt("--help");
+  EXPECT_EQ(r.status, 0);
+  for (const char* option : {"--nthreads", "--outfile", "--cropwindow", "--quick", "--quiet", "--cat", "--toply", "--spp",
+                             "--seed", "--stats", "--progress", "--time", "--strict", "--lenient", "--verbose"}) {
+    EXPECT_NE(r.output.find(option), std::string::npos) << option;
+  }
+}
+
+TEST_F(Pbrt, RejectsUnknownOptionsWithTheNearestName) {
+  const ProcessResult r = pbrt("--nthread 2 a.pbrt");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_NE(r.output.find("nthreads"), std::string::npos) << r.output;
+}
+
+TEST_F(Pbrt, ShowsEveryProblemOfASceneAtOnceAndWritesNothing) {
+  folder_.write("bad.pbrt",
+                "Film \"image\" \"integer xresolutoin\" 16\n"
+                "WorldBegin\n"
+                "Material \"matt\"\n"
+                "Shape \"sphere\" \"float radius\" -1\n"
+                "LightSource \"infinite\" \"string mapname\" \"nowhere.exr\"\n"
+                "WorldEnd\n");
+  const ProcessResult r = pbrt("--outfile o.exr bad.pbrt");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_NE(r.output.find("bad.pbrt:1:"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("xresolution"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("bad.pbrt:3:"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("matte"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("bad.pbrt:4:"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("bad.pbrt:5:"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("nowhere.exr"), std::string::npos) << r.output;
+  EXPECT_FALSE(folder_.has("o.exr"));
+}
+
+TEST_F(Pbrt, LenientTurnsUnknownNamesIntoWarnings) {
+  folder_.write("odd.pbrt",
+                "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"integer spam\" 16\n"
+                "WorldBegin\nMaterial \"matt\"\nShape \"blob\"\nLightSource \"infinite\"\nWorldEnd\n");
+  EXPECT_EQ(pbrt("--outfile o.exr odd.pbrt").status, 1);
+  const ProcessResult r = pbrt("--lenient --outfile o.exr odd.pbrt");
+  EXPECT_EQ(r.status, 0) << r.output;
+  EXPECT_NE(r.output.find("warning"), std::string::npos);
+  EXPECT_TRUE(folder_.has("o.exr"));
+}
+
+TEST_F(Pbrt, RefusesAnOutputThatCouldNotBeWrittenBeforeRendering) {
+  folder_.write("a.pbrt", kScene);
+  EXPECT_EQ(pbrt("--outfile x.jpg a.pbrt").status, 1);
+  EXPECT_EQ(pbrt("--outfile no/such/folder/x.exr a.pbrt").status, 1);
+  const ProcessResult r = pbrt("--outfile x.jpg a.pbrt");
+  EXPECT_NE(r.output.find(".exr, .png, .pfm, .tga"), std::string::npos) << r.output;
+}
+
+TEST_F(Pbrt, MissingSceneIsAnError) {
+  const ProcessResult r = pbrt("nothing.pbrt");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_NE(r.output.find("nothing.pbrt"), std::string::npos) << r.output;
+}
+
+TEST_F(Pbrt, WritesStatisticsAsJson) {
+  folder_.write("a.pbrt", kScene);
+  ASSERT_EQ(pbrt("--stats s.json a.pbrt").status, 0);
+  const auto json = nlohmann::json::parse(folder_.read("s.json"));
+  const auto& render = json.at("renders").at(0);
+  EXPECT_EQ(render.at("counters").at("cameraSamples"), 16 * 8 * 4);
+  EXPECT_EQ(render.at("samplesTaken"), 16 * 8 * 4);
+  for (const char* phase : {"parse", "construct", "render", "write"}) {
+    EXPECT_GE(render.at("seconds").at(phase).at("wall").get<double>(), 0) << phase;
+    EXPECT_GE(render.at("seconds").at(phase).at("cpu").get<double>(), 0) << phase;
+  }
+  for (const char* cause : {"nan", "infinite", "negative"}) {
+    EXPECT_EQ(render.at("counters").at("droppedSamples").at(cause), 0) << cause;
+  }
+  EXPECT_GT(render.at("peakMemoryBytes").get<std::size_t>(), 1u << 20);
+}
+
+TEST_F(Pbrt, StopsAtTheTimeLimitWithAValidImage) {
+  folder_.write("endless.pbrt", kEndless);
+  const auto start = std::chrono::steady_clock::now();
+  const ProcessResult r = pbrt("--time 1 --stats s.json endless.pbrt");
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_EQ(r.status, 0) << r.output;
+  EXPECT_LT(seconds, 3.0);
+  EXPECT_EQ(firstPixel("endless.exr"), Rgb(0.5f, 0.25f, 1)) << "the image must be rightly normalised";
+  EXPECT_TRUE(nlohmann::json::parse(folder_.read("s.json")).at("renders").at(0).at("interrupted").get<bool>());
+}
+
+TEST_F(Pbrt, WritesAValidImageOnInterrupt) {
+  folder_.write("endless.pbrt", kEndless);
+  const ProcessResult r = pbrt("--nthreads 2 endless.pbrt", "timeout -s INT 1");
+  EXPECT_TRUE(folder_.has("endless.exr")) << r.output;
+  const Image image = readImage(folder_.path() / "endless.exr");
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) ASSERT_EQ(image.rgb(x, y), Rgb(0.5f, 0.25f, 1)) << x << ' ' << y;
+  }
+}
+
+TEST_F(Pbrt, QuietSaysNothingWhenAllIsWell) {
+  folder_.write("a.pbrt", kScene);
+  EXPECT_EQ(pbrt("--quiet a.pbrt").output, "");
+}
+
+TEST_F(Pbrt, CatPrintsASceneThatParsesToTheSameImage) {
+  folder_.write("a.pbrt", kScene);
+  ASSERT_EQ(pbrt("--seed 3 --outfile one.exr a.pbrt").status, 0);
+  const ProcessResult printed = pbrt("--cat a.pbrt");
+  ASSERT_EQ(printed.status, 0);
+  folder_.write("b.pbrt", printed.output);
+  ASSERT_EQ(pbrt("--seed 3 --outfile two.exr b.pbrt").status, 0) << printed.output;
+  EXPECT_EQ(readImage(folder_.path() / "one.exr").data(), readImage(folder_.path() / "two.exr").data());
+}
+
+TEST_F(Pbrt, RendersEveryWorldOfAFile) {
+  folder_.write("two.pbrt",
+                "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" \"one.exr\"\n"
+                "WorldBegin\nLightSource \"infinite\"\nWorldEnd\n"
+                "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" \"two.exr\"\n"
+                "WorldBegin\nLightSource \"infinite\" \"rgb L\" [ 2 2 2 ]\nWorldEnd\n");
+  ASSERT_EQ(pbrt("two.pbrt").status, 0);
+  EXPECT_EQ(firstPixel("one.exr"), Rgb(1));
+  EXPECT_EQ(firstPixel("two.exr"), Rgb(2));
+}
+
+TEST_F(Pbrt, StrictTellsDroppedSamplesByItsExitStatus) {
+  // A light of 3e38 seen through a weight of 2 overflows to infinity.
+  folder_.write("hot.pbrt",
+                "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2\nWorldBegin\n"
+                "LightSource \"infinite\" \"rgb L\" [ 3e38 3e38 3e38 ]\nLightSource \"infinite\" \"rgb L\" [ 3e38 3e38 3e38 ]\n"
+                "WorldEnd\n");
+  const ProcessResult plain = pbrt("--outfile h.exr --stats s.json hot.pbrt");
+  EXPECT_EQ(plain.status, 0);
+  EXPECT_NE(plain.output.find("WARNING"), std::string::npos) << plain.output;
+  EXPECT_NE(plain.output.find("pixel 0 0, sample 0, seed 0"), std::string::npos) << plain.output;
+  const auto render = nlohmann::json::parse(folder_.read("s.json")).at("renders").at(0);
+  EXPECT_EQ(render.at("counters").at("droppedSamples").at("infinite"), render.at("samplesTaken"));
+  EXPECT_EQ(pbrt("--strict --outfile h.exr hot.pbrt").status, 2);
+  EXPECT_TRUE(folder_.has("h.exr"));
+}
+
+}  // namespace
+}  // namespace pbrtmedia::test
