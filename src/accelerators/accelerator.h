@@ -134,8 +134,9 @@ class Accelerator {
   /// Bytes the ray-tracing library holds for this structure, as it reports them.
   std::size_t memoryBytes() const;
 
+  struct Impl;  ///< known inside the room only
+
  private:
-  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -18,6 +18,7 @@ class Cone final : public RevolvedQuadric {
   std::string_view typeName() const override { return "cone"; }
 
  private:
+  static Profile profileOf(const Params& params);
   double vAt(double z) const override;
   HeightDerivatives heightDerivatives(double z) const override;
 };

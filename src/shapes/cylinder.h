@@ -19,6 +19,7 @@ class Cylinder final : public RevolvedQuadric {
   std::string_view typeName() const override { return "cylinder"; }
 
  private:
+  static Profile profileOf(const Params& params);
   double vAt(double z) const override;
   HeightDerivatives heightDerivatives(double z) const override;
 };

@@ -23,7 +23,8 @@ class Disk final : public Quadric {
   Bounds3d objectBounds() const override;
   std::array<double, 3> lineEquation(Vec3d o, Vec3d d) const override;
   Vec3d project(Vec3d p) const override;
-  std::optional<Point2d> parameters(Vec3d p) const override;
+  bool contains(Vec3d p) const override;
+  Point2d parameters(Vec3d p) const override;
   Vec3d normal(Vec3d p) const override;
   Derivatives derivatives(Vec3d p) const override;
   double objectArea() const override;

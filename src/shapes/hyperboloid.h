@@ -18,8 +18,7 @@ class Hyperboloid final : public RevolvedQuadric {
   std::string_view typeName() const override { return "hyperboloid"; }
 
  private:
-  struct Segment;
-  Hyperboloid(const Segment& segment, double phiMax, const ShapePlacement& placement);
+  static Profile profileOf(const Params& params);
   double vAt(double z) const override;
   HeightDerivatives heightDerivatives(double z) const override;
   double phase(double z) const override;

@@ -19,6 +19,7 @@ class Paraboloid final : public RevolvedQuadric {
   std::string_view typeName() const override { return "paraboloid"; }
 
  private:
+  static Profile profileOf(const Params& params);
   double vAt(double z) const override;
   HeightDerivatives heightDerivatives(double z) const override;
   double zMin_, zMax_;  ///< as given: zMin_ may lie below the apex

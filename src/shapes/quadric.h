@@ -32,8 +32,8 @@ class Quadric : public Shape, public UserGeometry {
 
   /// Exact for uniform scales; otherwise by quadrature (relative error below 1e-5) on every call.
   double area(std::uint32_t primitive) const final;
+  using Shape::sample;
   ShapeSample sample(std::uint32_t primitive, Point2f u) const final;
-  ShapeSample sample(std::uint32_t primitive, Point3f reference, Point2f u) const override;
   float pdf(std::uint32_t primitive, Point3f reference, Vector3f wi, Point3f p, Normal3f n) const override;
 
  protected:
@@ -52,8 +52,10 @@ class Quadric : public Shape, public UserGeometry {
   virtual std::array<double, 3> lineEquation(Vec3d o, Vec3d d) const = 0;
   /// Moves a point that is on the surface up to rounding onto it (to double precision).
   virtual Vec3d project(Vec3d p) const = 0;
-  /// (u, v) of a surface point, nothing when it is clipped away.
-  virtual std::optional<Point2d> parameters(Vec3d p) const = 0;
+  /// Whether a point of the unclipped surface belongs to the shape.
+  virtual bool contains(Vec3d p) const = 0;
+  /// (u, v) of a surface point, in [0, 1]² up to rounding.
+  virtual Point2d parameters(Vec3d p) const = 0;
   /// Unit, along dp/du x dp/dv where that is not zero.
   virtual Vec3d normal(Vec3d p) const = 0;
   /// Finite everywhere and with dp/du, dp/dv not zero (at poles a nearby tangent is taken).
@@ -67,7 +69,9 @@ class Quadric : public Shape, public UserGeometry {
   Vec3d objectVector(Vec3d world) const { return objectFromWorld_.vector(world); }
   /// |det| of the linear part of the placement.
   double volumeScale() const { return volumeScale_; }
-  /// World point, oriented unit normal and area density at a surface point.
+  /// Size of object-space coordinates per world coordinate (Frobenius norm of the inverse's linear part).
+  double inverseScale() const { return inverseScale_; }
+  /// World point, oriented unit normal and area density of `sample` at a surface point.
   ShapeSample sampleAt(Vec3d pObject) const;
 
  private:
@@ -76,12 +80,14 @@ class Quadric : public Shape, public UserGeometry {
     double shift;  ///< t of `o` on the world ray: near the shape, so that far origins lose no digits
   };
   ObjectRay objectRay(const Ray& ray) const;
+  Vec3d nearestPoint(const RayHit& hit, const Ray& ray) const;
   /// World area per object area where the unit object normal is n.
   double areaScale(Vec3d nObject) const;
 
   Transform worldFromObject_, objectFromWorld_;
   bool flips_;
-  double volumeScale_;
+  bool isSimilarity_;
+  double volumeScale_, inverseScale_;
 };
 
 }  // namespace pbrtmedia

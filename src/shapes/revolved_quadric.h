@@ -33,7 +33,8 @@ class RevolvedQuadric : public Quadric {
   Bounds3d objectBounds() const final;
   std::array<double, 3> lineEquation(Vec3d o, Vec3d d) const final;
   Vec3d project(Vec3d p) const final;
-  std::optional<Point2d> parameters(Vec3d p) const final;
+  bool contains(Vec3d p) const final;
+  Point2d parameters(Vec3d p) const final;
   Vec3d normal(Vec3d p) const final;
   Derivatives derivatives(Vec3d p) const override;
   double objectArea() const final { return area_; }

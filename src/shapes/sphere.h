@@ -26,13 +26,13 @@ class Sphere final : public RevolvedQuadric {
   float pdf(std::uint32_t primitive, Point3f reference, Vector3f wi, Point3f p, Normal3f n) const override;
 
  private:
-  struct Extent;
-  Sphere(const Extent& extent, const ShapePlacement& placement);
+  static Profile profileOf(const Params& params);
   double vAt(double z) const override;
   HeightDerivatives heightDerivatives(double z) const override;
   Derivatives derivatives(Vec3d p) const override;
-  /// 1 - cos of the half-angle under which the sphere appears from an object-space point; nothing inside.
-  std::optional<double> coneFrom(Vec3d reference) const;
+  /// 1 - cos of the half-angle under which the complete sphere appears from an object-space point; nothing
+  /// when it is clipped, or the point inside or too near for its rounded coordinates to tell.
+  std::optional<double> coneFrom(Vec3d reference, Point3f referenceWorld) const;
   /// Solid-angle density in the world of a density on object-space directions, per unit direction `d` there.
   double worldDensity(double objectDensity, Vec3d d) const;
 

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "accelerators/accelerator.h"
+
+#include <glog/logging.h>
+
+#include <stdexcept>
+
+#include "accelerators/embree_device.h"
+#include "accelerators/impl.h"
+#include "accelerators/query.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// Embree leaves out primitives beyond this without a word.
+constexpr float kLargestCoordinate = 1.8e18f;
+/// User bounds grow by this fraction of the largest coordinate: several roundings of float transforms.
+constexpr float kBoundsGrowth = 0x1p-20f;
+
+void checkExtent(const Bounds3f& b, const char* what) {
+  const float largest = std::max(maxComponent(abs(b.min)), maxComponent(abs(b.max)));
+  if (!b.isEmpty() && !(largest <= kLargestCoordinate)) {
+    throw std::invalid_argument(std::string(what) + ": coordinates must be finite and below 1.8e18");
+  }
+}
+
+Bounds3f trianglesBounds(const TriangleBuffers& triangles) {
+  Bounds3f b;
+  for (const auto& corners : triangles.indices) {
+    for (const std::uint32_t i : corners) {
+      const Point3f& p = triangles.positions[i];
+      if (!isFinite(p)) throw std::invalid_argument("triangles: coordinates must be finite");
+      b.expand(p);
+    }
+  }
+  return b;
+}
+
+Bounds3f grown(Bounds3f b) {
+  const float largest = std::max(maxComponent(abs(b.min)), maxComponent(abs(b.max)));
+  const float by = largest * kBoundsGrowth + std::numeric_limits<float>::min();
+  b.min -= Vector3f{by, by, by};
+  b.max += Vector3f{by, by, by};
+  return b;
+}
+
+void reportBounds(const RTCBoundsFunctionArguments* args) {
+  const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
+  const Bounds3f b =
+      grown(record.user ? record.user->bounds() : record.worldFromObject.motionBounds(record.object->bounds));
+  *args->bounds_o = {b.min.x, b.min.y, b.min.z, 0, b.max.x, b.max.y, b.max.z, 0};
+}
+
+RTCGeometry makeTriangles(const TriangleBuffers& triangles) {
+  RTCGeometry geometry = rtcNewGeometry(embreeDevice(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  const auto positions = triangles.positions;
+  if (triangles.paddedPositions) {
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
+                               sizeof(Point3f), positions.size());
+  } else {
+    void* copy = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                         sizeof(Point3f), positions.size());
+    if (!copy) {
+      rtcReleaseGeometry(geometry);
+      throw std::bad_alloc();
+    }
+    std::copy(positions.begin(), positions.end(), static_cast<Point3f*>(copy));
+  }
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.indices.data(),
+                             0, sizeof(triangles.indices[0]), triangles.indices.size());
+  return geometry;
+}
+
+RTCGeometry makeStaticInstance(const GeometryRecord& record) {
+  RTCGeometry geometry = rtcNewGeometry(embreeDevice(), RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, record.object->scene);
+  rtcSetGeometryTimeStepCount(geometry, 1);
+  const Affine3f m(record.worldFromObject.start().matrix());
+  const std::array<float, 12> columns{m.x.x, m.x.y, m.x.z, m.y.x, m.y.y, m.y.z,
+                                      m.z.x, m.z.y, m.z.z, m.t.x, m.t.y, m.t.z};
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
+  return geometry;
+}
+
+RTCGeometry makeUser(GeometryRecord& record) {
+  RTCGeometry geometry = rtcNewGeometry(embreeDevice(), RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, 1);
+  rtcSetGeometryBoundsFunction(geometry, reportBounds, nullptr);
+  if (record.object) {
+    Query::setInstanceCallbacks(geometry);
+  } else {
+    Query::setUserCallbacks(geometry);
+  }
+  return geometry;
+}
+
+}  // namespace
+
+GeometryRecord& Accelerator::Impl::add(const HitFilter* filter) {
+  CHECK(!isBuilt) << "nothing can be added to a built accelerator";
+  auto record = std::make_unique<GeometryRecord>();
+  record->owner = this;
+  record->number = static_cast<std::uint32_t>(records.size());
+  record->filter = filter;
+  records.push_back(std::move(record));
+  return *records.back();
+}
+
+void Accelerator::Impl::attach(GeometryRecord& record) {
+  if (record.object && !record.object->scene) return;                   // instance of nothing
+  if (!record.object && !record.user && !record.isTriangles()) return;  // mesh without triangles
+  const bool isStaticInstance = record.object && !record.worldFromObject.isAnimated();
+  RTCGeometry geometry = isStaticInstance       ? makeStaticInstance(record)
+                         : record.isTriangles() ? makeTriangles(record.triangles)
+                                                : makeUser(record);
+  rtcSetGeometryUserData(geometry, &record);
+  rtcCommitGeometry(geometry);
+  if (!scene) {
+    scene = rtcNewScene(embreeDevice());
+    rtcSetSceneFlags(
+        scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  }
+  rtcAttachGeometryByID(scene, geometry, record.number);
+  rtcReleaseGeometry(geometry);
+}
+
+Accelerator::Accelerator() : impl_(std::make_unique<Impl>()) {}
+Accelerator::~Accelerator() = default;
+Accelerator::Accelerator(Accelerator&&) noexcept = default;
+Accelerator& Accelerator::operator=(Accelerator&&) noexcept = default;
+
+std::uint32_t Accelerator::addTriangles(TriangleBuffers triangles, const HitFilter* filter) {
+  const Bounds3f b = trianglesBounds(triangles);
+  checkExtent(b, "triangles");
+  GeometryRecord& record = impl_->add(filter);
+  record.triangles = triangles;
+  impl_->bounds.expand(b);
+  return record.number;
+}
+
+std::uint32_t Accelerator::addUser(const UserGeometry& geometry, const HitFilter* filter) {
+  const Bounds3f b = geometry.bounds();
+  checkExtent(b, "shape");
+  GeometryRecord& record = impl_->add(filter);
+  record.user = &geometry;
+  impl_->bounds.expand(b);
+  return record.number;
+}
+
+std::uint32_t Accelerator::addInstance(const Accelerator& object, const AnimatedTransform& worldFromObject) {
+  CHECK(object.impl_->isBuilt) << "an instance needs a built accelerator";
+  CHECK(!object.impl_->holdsInstances) << "instances do not nest";
+  if (worldFromObject.start().isSingular() || worldFromObject.end().isSingular()) {
+    throw std::invalid_argument("instance: the transform is singular");
+  }
+  const Bounds3f b = object.isEmpty() ? Bounds3f{} : worldFromObject.motionBounds(object.impl_->bounds);
+  checkExtent(b, "instance");
+  GeometryRecord& record = impl_->add(nullptr);
+  record.object = object.impl_.get();
+  record.worldFromObject = worldFromObject;
+  impl_->holdsInstances = true;
+  impl_->bounds.expand(b);
+  return record.number;
+}
+
+void Accelerator::build() {
+  CHECK(!impl_->isBuilt) << "an accelerator is built once";
+  impl_->isBuilt = true;
+  if (impl_->bounds.isEmpty()) return;
+  impl_->bytes = measureBuild([this] {
+    for (const auto& record : impl_->records) impl_->attach(*record);
+    if (impl_->scene) rtcCommitScene(impl_->scene);
+  });
+}
+
+std::optional<RayHit> Accelerator::intersect(const Ray& ray, float tMin, const Exclusions& exclusions) const {
+  if (!impl_->scene || !isFinite(ray.o) || !isFinite(ray.d)) return std::nullopt;
+  Query query(ray, tMin, exclusions, /*shadowRay=*/false);
+  query.run(impl_->scene);
+  if (!query.best().id.isValid()) return std::nullopt;
+  return query.best();
+}
+
+bool Accelerator::occluded(const Ray& ray, float tMin, const Exclusions& exclusions) const {
+  if (!impl_->scene || !isFinite(ray.o) || !isFinite(ray.d)) return false;
+  Query query(ray, tMin, exclusions, /*shadowRay=*/true);
+  query.run(impl_->scene);
+  return query.best().id.isValid();
+}
+
+Bounds3f Accelerator::bounds() const { return impl_->bounds; }
+bool Accelerator::isEmpty() const { return impl_->bounds.isEmpty(); }
+std::size_t Accelerator::memoryBytes() const { return impl_->bytes; }
+
+}  // namespace pbrtmedia

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "accelerators/query.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "accelerators/triangle_pair.h"
+
+namespace pbrtmedia {
+namespace {
+
+bool precedes(const PrimitiveId& a, const PrimitiveId& b) {
+  return std::tie(a.instance, a.geometry, a.primitive) < std::tie(b.instance, b.geometry, b.primitive);
+}
+
+/// Relative to the coordinates: hits farther than this from an end of the ray are not looked at by
+/// `TrianglePair::deniesHit`. Only a saving of time: the rule is right for any distance.
+constexpr double kNearAnEnd = 1e-2;
+/// Relative to the coordinates: how far apart along the ray two triangles are hit when it goes through a
+/// common edge, within Embree's tolerance of 1 ulp across the edge.
+constexpr double kSameCrossing = 1e-5;
+
+}  // namespace
+
+Query::Query(const Ray& ray, float tMin, const Exclusions& exclusions, bool shadowRay)
+    : ray_(ray), tMin_(tMin), exclusions_(exclusions), shadowRay_(shadowRay) {
+  rtcInitIntersectContext(&context_.embree);
+  context_.embree.filter = filterTriangle;
+  context_.query = this;
+}
+
+void Query::run(RTCScene scene) {
+  RTCRayHit r{};
+  r.ray.org_x = ray_.o.x;
+  r.ray.org_y = ray_.o.y;
+  r.ray.org_z = ray_.o.z;
+  r.ray.dir_x = ray_.d.x;
+  r.ray.dir_y = ray_.d.y;
+  r.ray.dir_z = ray_.d.z;
+  r.ray.tnear = tMin_;
+  // Embree's far end is inclusive, ours is not.
+  r.ray.tfar = std::isfinite(ray_.tMax) ? std::nextafter(ray_.tMax, -kInfinity) : ray_.tMax;
+  if (best_.id.isValid()) r.ray.tfar = std::min(r.ray.tfar, best_.t);
+  r.ray.mask = 0xffffffffu;
+  r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  if (!(r.ray.tnear <= r.ray.tfar)) return;
+  if (shadowRay_) {
+    rtcOccluded1(scene, &context_.embree, &r.ray);
+  } else {
+    rtcIntersect1(scene, &context_.embree, &r);
+  }
+}
+
+std::uint32_t Query::instance() const {
+  return animatedInstance_ != PrimitiveId::kNone ? animatedInstance_ : context_.embree.instID[0];
+}
+
+bool Query::isExcluded(const PrimitiveId& id) const {
+  return std::ranges::any_of(exclusions_.entries(), [&](const auto& entry) { return entry.id == id; });
+}
+
+bool Query::isLeftOut(const GeometryRecord& record, const RayHit& hit, Vec3d direction) const {
+  if (isExcluded(hit.id)) return true;
+  for (const Exclusions::Entry& entry : exclusions_.entries()) {
+    if (entry.id.instance != hit.id.instance) continue;
+    const GeometryRecord& other = *record.owner->records[entry.id.geometry];
+    if (!other.isTriangles()) continue;
+    const TrianglePair pair{other.corners(entry.id.primitive), record.corners(hit.id.primitive), direction};
+    const double between = std::abs(double{hit.t} - entry.t) * maxComponent(abs(direction));
+    if (entry.t <= 0 || entry.t >= ray_.tMax) {
+      if (between <= kNearAnEnd * pair.scale && pair.deniesHit(entry.t > 0)) return true;
+    } else if (between <= kSameCrossing * pair.scale && pair.isOneCrossing(hit.uv)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Query::take(const GeometryRecord& record, const RayHit& hit) {
+  if (!(hit.t >= tMin_ && hit.t < ray_.tMax)) return false;
+  const bool isTie = best_.id.isValid() && hit.t == best_.t;
+  if (isTie && !precedes(hit.id, best_.id)) return false;
+  if (record.filter && !record.filter->accepts(hit, shadowRay_)) return false;
+  best_ = hit;
+  return true;
+}
+
+void Query::filterTriangle(const RTCFilterFunctionNArguments* args) {
+  Query& query = of(args->context);
+  const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
+  RTCRayN* ray = args->ray;
+  RTCHitN* at = args->hit;
+  const RayHit hit{.t = RTCRayN_tfar(ray, 1, 0),
+                   .id = {query.instance(), record.number, RTCHitN_primID(at, 1, 0)},
+                   .uv = {RTCHitN_u(at, 1, 0), RTCHitN_v(at, 1, 0)}};
+  const Vec3d direction(RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0));
+  const bool isOut = !query.exclusions_.isEmpty() && query.isLeftOut(record, hit, direction);
+  if (isOut || !query.take(record, hit)) args->valid[0] = 0;
+}
+
+bool Query::hitUser(const GeometryRecord& record, const RTCRay& from) {
+  const Ray ray{.o = {from.org_x, from.org_y, from.org_z},
+                .d = {from.dir_x, from.dir_y, from.dir_z},
+                .tMax = from.tfar,
+                .time = ray_.time};
+  const PrimitiveId id{instance(), record.number, 0};
+  // Room for the roots a filter rejects, which are then left out as well.
+  std::array<float, Exclusions::kCapacity + 16> excludedT;
+  std::size_t count = 0;
+  for (const auto& entry : exclusions_.entries()) {
+    if (entry.id == id) excludedT[count++] = entry.t;
+  }
+  while (true) {
+    const auto root = record.user->intersect(ray, from.tnear, from.tfar, {excludedT.data(), count});
+    if (!root) return false;
+    const RayHit hit{.t = static_cast<float>(root->t), .id = id, .uv = root->uv};
+    if (take(record, hit)) return true;
+    if (!record.filter || count == excludedT.size()) return false;
+    excludedT[count++] = hit.t;
+  }
+}
+
+bool Query::hitInstance(const GeometryRecord& record) {
+  const Transform worldFromObject = record.worldFromObject.at(ray_.time);
+  if (worldFromObject.isSingular()) return false;
+  Query inner(worldFromObject.inverse().ray(ray_), tMin_, exclusions_, shadowRay_);
+  inner.animatedInstance_ = record.number;
+  inner.best_ = best_;
+  inner.run(record.object->scene);
+  if (inner.best_.id == best_.id && inner.best_.t == best_.t) return false;
+  best_ = inner.best_;
+  return true;
+}
+
+namespace {
+
+void report(RTCRayHit& out, const RayHit& hit) {
+  out.ray.tfar = hit.t;
+  out.hit.u = hit.uv.x;
+  out.hit.v = hit.uv.y;
+  out.hit.primID = hit.id.primitive;
+  out.hit.geomID = hit.id.geometry;
+  out.hit.instID[0] = hit.id.instance;
+}
+
+}  // namespace
+
+void Query::intersectUser(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  Query& query = of(args->context);
+  auto& rayHit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
+  if (query.hitUser(record, rayHit.ray)) report(rayHit, query.best_);
+}
+
+void Query::occludedUser(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+  const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
+  if (of(args->context).hitUser(record, ray)) ray.tfar = -kInfinity;
+}
+
+void Query::intersectInstance(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  Query& query = of(args->context);
+  auto& rayHit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
+  if (query.hitInstance(record)) report(rayHit, query.best_);
+}
+
+void Query::occludedInstance(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
+  const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
+  if (of(args->context).hitInstance(record)) ray.tfar = -kInfinity;
+}
+
+void Query::setUserCallbacks(RTCGeometry geometry) {
+  rtcSetGeometryIntersectFunction(geometry, intersectUser);
+  rtcSetGeometryOccludedFunction(geometry, occludedUser);
+}
+
+void Query::setInstanceCallbacks(RTCGeometry geometry) {
+  rtcSetGeometryIntersectFunction(geometry, intersectInstance);
+  rtcSetGeometryOccludedFunction(geometry, occludedInstance);
+}
+
+}  // namespace pbrtmedia

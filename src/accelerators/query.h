@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include "accelerators/impl.h"
+
+// Internal to the room: other rooms see accelerator.h only.
+
+namespace pbrtmedia {
+
+/// One ray on its way through a scene: what Embree's callbacks have to know, and the nearest hit so far.
+class Query {
+ public:
+  Query(const Ray& ray, float tMin, const Exclusions& exclusions, bool shadowRay);
+  Query(const Query&) = delete;
+  Query& operator=(const Query&) = delete;
+
+  /// Traverses `scene`. Afterwards `best()` is the hit, if valid; shadow rays stop at any hit.
+  void run(RTCScene scene);
+  const RayHit& best() const { return best_; }
+
+  /// Registers the callbacks of user geometry and animated instances.
+  static void setUserCallbacks(RTCGeometry geometry);
+  static void setInstanceCallbacks(RTCGeometry geometry);
+
+ private:
+  struct Context {
+    RTCIntersectContext embree;  // must come first: Embree hands back its address
+    Query* query;
+  };
+  static Query& of(RTCIntersectContext* context) { return *reinterpret_cast<Context*>(context)->query; }
+
+  static void filterTriangle(const RTCFilterFunctionNArguments* args);
+  static void intersectUser(const RTCIntersectFunctionNArguments* args);
+  static void occludedUser(const RTCOccludedFunctionNArguments* args);
+  static void intersectInstance(const RTCIntersectFunctionNArguments* args);
+  static void occludedInstance(const RTCOccludedFunctionNArguments* args);
+
+  std::uint32_t instance() const;
+  /// The candidate becomes `best_` when nothing speaks against it.
+  bool take(const GeometryRecord& record, const RayHit& hit);
+  bool isExcluded(const PrimitiveId& id) const;
+  bool isLeftOut(const GeometryRecord& record, const RayHit& hit, Vec3d direction) const;
+  bool hitUser(const GeometryRecord& record, const RTCRay& ray);
+  bool hitInstance(const GeometryRecord& record);
+
+  Ray ray_;
+  float tMin_;
+  const Exclusions& exclusions_;
+  bool shadowRay_;
+  std::uint32_t animatedInstance_ = PrimitiveId::kNone;
+  RayHit best_;
+  Context context_;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "accelerators/triangle_pair.h"
+
+#include <algorithm>
+
+namespace pbrtmedia {
+namespace {
+
+/// Relative: corners nearer to a plane than this lie in it. Double rounding, far below float spacing.
+constexpr double kCoplanar = 1e-12;
+/// Barycentric weight below which a hit is on an edge: several times Embree's tolerance of 1 ulp.
+constexpr double kOnEdge = 2e-6;
+
+Vec3d faceVector(const std::array<Vec3d, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+
+}  // namespace
+
+TrianglePair::TrianglePair(const std::array<Vec3d, 3>& excludedCorners,
+                           const std::array<Vec3d, 3>& hitCorners, Vec3d rayDirection)
+    : excluded(excludedCorners), hit(hitCorners), direction(rayDirection), scale(0) {
+  for (const auto& corners : {excluded, hit}) {
+    for (const Vec3d& corner : corners) scale = std::max(scale, maxComponent(abs(corner)));
+  }
+}
+
+bool TrianglePair::deniesHit(bool isEnd) const {
+  const Vec3d normal = faceVector(hit);
+  const double tolerance = kCoplanar * scale * length(normal);
+  double low = 0, high = 0;
+  for (const Vec3d& corner : excluded) {
+    const double side = dot(normal, corner - hit[0]);
+    low = std::min(low, side);
+    high = std::max(high, side);
+  }
+  const bool isAbove = low >= -tolerance, isBelow = high <= tolerance;
+  const double leaving = isEnd ? -dot(normal, direction) : dot(normal, direction);
+  return (isAbove && isBelow) || (isAbove && leaving >= 0) || (isBelow && leaving <= 0);
+}
+
+bool TrianglePair::isOneCrossing(Point2f uv) const {
+  const std::array<double, 3> weights{1.0 - uv.x - uv.y, uv.x, uv.y};
+  const auto isShared = [](const std::array<Vec3d, 3>& corners, Vec3d p) {
+    return std::ranges::find(corners, p) != corners.end();
+  };
+  std::array<bool, 3> shared{};
+  double weightElsewhere = 0;  // of the corners that are not shared: 0 on the common edge or corner
+  int count = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    shared[i] = isShared(excluded, hit[i]);
+    if (shared[i]) ++count;
+    if (!shared[i]) weightElsewhere += std::max(0.0, weights[i]);
+  }
+  if (count == 0 || count == 3 || weightElsewhere > kOnEdge) return false;
+  if (count == 1) {  // a corner: same facing, so the same passage
+    return dot(faceVector(excluded), direction) * dot(faceVector(hit), direction) > 0;
+  }
+  // An edge: seen along the ray, the two lie on opposite sides of it.
+  const std::size_t own = !shared[0] ? 0 : (!shared[1] ? 1 : 2);
+  const auto other = std::ranges::find_if(excluded, [&](Vec3d p) { return !isShared(hit, p); });
+  if (other == excluded.end()) return false;
+  const Vec3d edge = hit[(own + 2) % 3] - hit[(own + 1) % 3];
+  const Vec3d across = cross(edge, direction);
+  const Vec3d base = hit[(own + 1) % 3];
+  return dot(across, hit[own] - base) * dot(across, *other - base) < 0;
+}
+
+}  // namespace pbrtmedia
