@@ -17,7 +17,8 @@ const std::string kScene =
     "LightSource \"infinite\" \"rgb L\" [ 0.5 0.25 1 ]\nWorldEnd\n";
 /// Long enough that nothing but a stop ends it.
 const std::string kEndless =
-    "Film \"image\" \"integer xresolution\" 64 \"integer yresolution\" 64 \"string filename\" \"endless.exr\"\n"
+    "Film \"image\" \"integer xresolution\" 64 \"integer yresolution\" 64 \"string filename\" "
+    "\"endless.exr\"\n"
     "Sampler \"random\" \"integer pixelsamples\" 100000000\nIntegrator \"path\"\nWorldBegin\n"
     "LightSource \"infinite\" \"rgb L\" [ 0.5 0.25 1 ]\nWorldEnd\n";
 
@@ -57,8 +58,9 @@ TEST_F(Pbrt, WritesItsProvenanceIntoTheImage) {
 TEST_F(Pbrt, HashesTheSceneWithItsIncludes) {
   const auto hashOf = [&](const std::string& light) {
     folder_.write("light.pbrt", light);
-    folder_.write("a.pbrt", "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2\nWorldBegin\n"
-                            "Include \"light.pbrt\"\nWorldEnd\n");
+    folder_.write("a.pbrt",
+                  "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2\nWorldBegin\n"
+                  "Include \"light.pbrt\"\nWorldEnd\n");
     const ProcessResult r = pbrt("--outfile h.exr a.pbrt");
     EXPECT_EQ(r.status, 0) << r.output;
     return readImage(folder_.path() / "h.exr").metadata.at("sceneHash");
@@ -94,8 +96,9 @@ TEST_F(Pbrt, ReadsStandardInput) {
 TEST_F(Pbrt, PrintsHelpAndEndsWell) {
   const ProcessResult r = pbrt("--help");
   EXPECT_EQ(r.status, 0);
-  for (const char* option : {"--nthreads", "--outfile", "--cropwindow", "--quick", "--quiet", "--cat", "--toply", "--spp",
-                             "--seed", "--stats", "--progress", "--time", "--strict", "--lenient", "--verbose"}) {
+  for (const char* option :
+       {"--nthreads", "--outfile", "--cropwindow", "--quick", "--quiet", "--cat", "--toply", "--spp",
+        "--seed", "--stats", "--progress", "--time", "--strict", "--lenient", "--verbose"}) {
     EXPECT_NE(r.output.find(option), std::string::npos) << option;
   }
 }
@@ -176,7 +179,8 @@ TEST_F(Pbrt, StopsAtTheTimeLimitWithAValidImage) {
   EXPECT_EQ(r.status, 0) << r.output;
   EXPECT_LT(seconds, 3.0);
   EXPECT_EQ(firstPixel("endless.exr"), Rgb(0.5f, 0.25f, 1)) << "the image must be rightly normalised";
-  EXPECT_TRUE(nlohmann::json::parse(folder_.read("s.json")).at("renders").at(0).at("interrupted").get<bool>());
+  EXPECT_TRUE(
+      nlohmann::json::parse(folder_.read("s.json")).at("renders").at(0).at("interrupted").get<bool>());
 }
 
 TEST_F(Pbrt, WritesAValidImageOnInterrupt) {
@@ -205,11 +209,12 @@ TEST_F(Pbrt, CatPrintsASceneThatParsesToTheSameImage) {
 }
 
 TEST_F(Pbrt, RendersEveryWorldOfAFile) {
-  folder_.write("two.pbrt",
-                "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" \"one.exr\"\n"
-                "WorldBegin\nLightSource \"infinite\"\nWorldEnd\n"
-                "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" \"two.exr\"\n"
-                "WorldBegin\nLightSource \"infinite\" \"rgb L\" [ 2 2 2 ]\nWorldEnd\n");
+  folder_.write(
+      "two.pbrt",
+      "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" \"one.exr\"\n"
+      "WorldBegin\nLightSource \"infinite\"\nWorldEnd\n"
+      "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" \"two.exr\"\n"
+      "WorldBegin\nLightSource \"infinite\" \"rgb L\" [ 2 2 2 ]\nWorldEnd\n");
   ASSERT_EQ(pbrt("two.pbrt").status, 0);
   EXPECT_EQ(firstPixel("one.exr"), Rgb(1));
   EXPECT_EQ(firstPixel("two.exr"), Rgb(2));
@@ -219,7 +224,8 @@ TEST_F(Pbrt, StrictTellsDroppedSamplesByItsExitStatus) {
   // A light of 3e38 seen through a weight of 2 overflows to infinity.
   folder_.write("hot.pbrt",
                 "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2\nWorldBegin\n"
-                "LightSource \"infinite\" \"rgb L\" [ 3e38 3e38 3e38 ]\nLightSource \"infinite\" \"rgb L\" [ 3e38 3e38 3e38 ]\n"
+                "LightSource \"infinite\" \"rgb L\" [ 3e38 3e38 3e38 ]\nLightSource \"infinite\" \"rgb L\" [ "
+                "3e38 3e38 3e38 ]\n"
                 "WorldEnd\n");
   const ProcessResult plain = pbrt("--outfile h.exr --stats s.json hot.pbrt");
   EXPECT_EQ(plain.status, 0);

@@ -16,7 +16,7 @@
 namespace pbrtmedia::test {
 
 struct ProcessResult {
-  int status = -1;  ///< exit status; 128 + signal when killed
+  int status = -1;     ///< exit status; 128 + signal when killed
   std::string output;  ///< standard output and standard error together
 };
 
@@ -26,7 +26,8 @@ inline ProcessResult run(const std::string& command) {
   if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
   ProcessResult result;
   std::array<char, 4096> buffer{};
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) result.output.append(buffer.data(), n);
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    result.output.append(buffer.data(), n);
   const int status = ::pclose(pipe);
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
