@@ -34,8 +34,8 @@ class ConstantField {
   Bounds3d localBox() const { return {{0, 0, 0}, {1, 1, 1}}; }
   SuperVoxels superVoxels() const;
   template <class Visit>
-  void walkPieces(Vec3d, Vec3d, double tMin, double tMax, Visit&& visit) const {
-    if (tMin < tMax) visit(tMin, tMax);
+  void walkPieces(const LocalLine&, double sMin, double sMax, Visit&& visit) const {
+    if (sMin < sMax) visit(sMin, sMax);
   }
   std::string describe() const;
   std::size_t bytes() const { return 0; }

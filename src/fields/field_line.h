@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/bounds.h"
 #include "base/segment.h"
 #include "fields/density_line.h"
+#include "fields/lattice_walk.h"
 #include "fields/super_voxels.h"
 
 namespace pbrtmedia {
@@ -25,42 +27,59 @@ class FieldLine {
                                        const Segment& segment) {
     const Bounds3d& box = bounds.occupied();
     if (!(segment.tMin < segment.tMax) || box.isEmpty()) return std::nullopt;
-    const Vec3d o = field.localFromWorld().point(Vec3d(segment.o));
-    const Vec3d d = field.localFromWorld().vector(Vec3d(segment.d));
-    const auto inside = clipToBox(box, o, d, segment.tMin, segment.tMax);
-    if (!inside) return std::nullopt;
-    const Vec3d entry = min(max(o + inside->tMin * d, box.min), box.max);
-    double length = inside->tMax - inside->tMin;
+    LocalLine line;
+    line.o = field.localFromWorld().point(Vec3d(segment.o));
+    line.d = field.localFromWorld().vector(Vec3d(segment.d));
+    line.inverse = {1 / line.d.x, 1 / line.d.y, 1 / line.d.z};
+    double tMin = segment.tMin, tMax = segment.tMax;
+    if (!clipToSlabs(box, line, tMin, tMax)) return std::nullopt;
+    line.o = min(max(line.o + tMin * line.d, box.min), box.max);
+    double length = tMax - tMin;
     // Far from the segment's origin t itself is coarse: then clip again from the entry, where it is not.
-    if (!isNear(box, entry + length * d)) {
-      const auto again = clipToBox(box, entry, d, 0.0, length);
-      length = again ? again->tMax : 0;
+    if (!isNear(box, line.o + length * line.d)) {
+      double begin = 0;
+      clipToSlabs(box, line, begin, length);
     }
     // An infinite length is left only where the direction is zero: a point, not a line.
     if (!(length > 0) || !std::isfinite(length)) return std::nullopt;
-    return FieldLine(field, bounds, entry, d, length, inside->tMin);
+    return FieldLine(field, bounds, line, length, tMin);
   }
 
   double tEntry() const { return tEntry_; }
   double length() const { return length_; }
-  float density(double s) const { return field_->density(o_ + s * d_); }
+  float density(double s) const { return field_->density(line_.o + s * line_.d); }
   template <class Visit>
   void walk(Visit&& visit) const {
-    bounds_->walk(o_, d_, 0.0, length_, visit);
+    bounds_->walk(line_, length_, visit);
   }
   template <class Visit>
   void walkPieces(Visit&& visit) const {
     bool more = true;
-    bounds_->walk(o_, d_, 0.0, length_, [&](double sEnter, double sExit, const SuperVoxel& bound) {
+    bounds_->walk(line_, length_, [&](double sEnter, double sExit, const SuperVoxel& bound) {
       if (bound.upper == 0) return true;
-      field_->walkPieces(o_, d_, sEnter, sExit, [&](double a, double b) { return more = visit(a, b); });
+      field_->walkPieces(line_, sEnter, sExit, [&](double a, double b) { return more = visit(a, b); });
       return more;
     });
   }
 
  private:
-  FieldLine(const Field& field, const SuperVoxels& bounds, Vec3d o, Vec3d d, double length, double tEntry)
-      : field_(&field), bounds_(&bounds), o_(o), d_(d), length_(length), tEntry_(tEntry) {}
+  FieldLine(const Field& field, const SuperVoxels& bounds, const LocalLine& line, double length,
+            double tEntry)
+      : field_(&field), bounds_(&bounds), line_(line), length_(length), tEntry_(tEntry) {}
+
+  /// Narrows [tMin, tMax] to the box; false when nothing is left. Random signs cost no branch here.
+  static bool clipToSlabs(const Bounds3d& box, const LocalLine& line, double& tMin, double& tMax) {
+    const auto clip = [&](double lo, double hi, double o, double inverse) {
+      if (!(std::abs(inverse) < std::numeric_limits<double>::infinity())) return o >= lo && o <= hi;
+      const double a = (lo - o) * inverse, b = (hi - o) * inverse;
+      tMin = std::max(tMin, std::min(a, b));
+      tMax = std::min(tMax, std::max(a, b));
+      return true;
+    };
+    return clip(box.min.x, box.max.x, line.o.x, line.inverse.x) &&
+           clip(box.min.y, box.max.y, line.o.y, line.inverse.y) &&
+           clip(box.min.z, box.max.z, line.o.z, line.inverse.z) && tMin < tMax;
+  }
 
   /// Fields answer safely up to this many local units outside their box.
   static constexpr double kSlack = 0.25;
@@ -71,7 +90,7 @@ class FieldLine {
 
   const Field* field_;
   const SuperVoxels* bounds_;
-  Vec3d o_, d_;  ///< entry point in local units; local units per t
+  LocalLine line_;  ///< from the entry point, in local units; d in local units per t
   double length_, tEntry_;
 };
 

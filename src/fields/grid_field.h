@@ -69,14 +69,14 @@ class GridField {
   /// beyond.
   SuperVoxels superVoxels(int power = kDefaultSuperVoxelPower) const;
   static constexpr int kDefaultSuperVoxelPower = 2, kMaxSuperVoxelPower = 10;
-  /// Cuts the line (local units) at the lattice planes: between two, the density is a cubic in t.
+  /// Cuts the line (local units) at the lattice planes: between two, the density is a cubic in s.
   template <class Visit>
-  void walkPieces(Vec3d o, Vec3d d, double tMin, double tMax, Visit&& visit) const {
-    const LatticeShape shape{{n_[0] + std::int64_t{1}, n_[1] + std::int64_t{1}, n_[2] + std::int64_t{1}}};
-    double tEnter = tMin;
-    walkLattice(shape, o, d, tMin, tMax, [&](double tExit, std::size_t) {
-      const bool more = visit(tEnter, tExit);
-      tEnter = tExit;
+  void walkPieces(const LocalLine& line, double sMin, double sMax, Visit&& visit) const {
+    const LatticeShape gaps{{n_[0] + std::int64_t{1}, n_[1] + std::int64_t{1}, n_[2] + std::int64_t{1}}};
+    double sEnter = sMin;
+    walkLattice(gaps, line, sMin, sMax, [&](double sExit, std::size_t) {
+      const bool more = visit(sEnter, sExit);
+      sEnter = sExit;
       return more;
     });
   }

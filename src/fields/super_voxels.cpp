@@ -17,11 +17,10 @@ struct Occupancy {
 
 Occupancy survey(const LatticeShape& shape, const std::vector<SuperVoxel>& cells) {
   Occupancy o;
-  std::size_t cell = 0;
-  for (std::int64_t k = 0; k < shape.count[2]; ++k) {
-    for (std::int64_t j = 0; j < shape.count[1]; ++j) {
-      for (std::int64_t i = 0; i < shape.count[0]; ++i, ++cell) {
-        if (!(cells[cell].upper > 0)) {
+  for (std::int64_t k = 0; k < shape.count.z; ++k) {
+    for (std::int64_t j = 0; j < shape.count.y; ++j) {
+      for (std::int64_t i = 0; i < shape.count.x; ++i) {
+        if (!(cells[static_cast<std::size_t>(shape.index(i, j, k))].upper > 0)) {
           ++o.empty;
           continue;
         }
@@ -40,12 +39,12 @@ Occupancy survey(const LatticeShape& shape, const std::vector<SuperVoxel>& cells
 SuperVoxels::SuperVoxels(const LatticeShape& shape, double cellSize, const Bounds3d& box,
                          const std::function<SuperVoxel(std::int64_t, std::int64_t, std::int64_t)>& boundOf)
     : shape_(shape), cellSize_(cellSize), inverseCellSize_(1 / cellSize) {
-  cells_.resize(static_cast<std::size_t>(shape.cells()));
-  parallelFor(static_cast<std::size_t>(shape.count[1] * shape.count[2]), [&](std::size_t row) {
-    const auto j = static_cast<std::int64_t>(row) % shape.count[1];
-    const auto k = static_cast<std::int64_t>(row) / shape.count[1];
+  cells_.resize(static_cast<std::size_t>(shape.stored()));
+  parallelFor(static_cast<std::size_t>(shape.count.y * shape.count.z), [&](std::size_t row) {
+    const auto j = static_cast<std::int64_t>(row) % shape.count.y;
+    const auto k = static_cast<std::int64_t>(row) / shape.count.y;
     SuperVoxel* out = cells_.data() + shape.index(0, j, k);
-    for (std::int64_t i = 0; i < shape.count[0]; ++i) out[i] = boundOf(i, j, k);
+    for (std::int64_t i = 0; i < shape.count.x; ++i) out[i] = boundOf(i, j, k);
   });
   for (const SuperVoxel& cell : cells_) maximum_ = std::max(maximum_, cell.upper);
   const Occupancy occupancy = survey(shape_, cells_);

@@ -24,7 +24,12 @@ class SuperVoxels {
 
   const LatticeShape& shape() const { return shape_; }
   double cellSize() const { return cellSize_; }
-  const SuperVoxel& at(std::size_t cell) const { return cells_[cell]; }
+  const SuperVoxel& at(std::int64_t i, std::int64_t j, std::int64_t k) const {
+    return cells_[static_cast<std::size_t>(shape_.index(i, j, k))];
+  }
+  std::size_t cellCount() const {
+    return static_cast<std::size_t>(shape_.count.x * shape_.count.y * shape_.count.z);
+  }
   /// Box around the cells that are not empty, cut to the field's box, in local units. Empty when all are.
   const Bounds3d& occupied() const { return occupied_; }
   /// Largest bound of all cells.
@@ -32,23 +37,24 @@ class SuperVoxels {
   std::size_t emptyCells() const { return emptyCells_; }
   std::size_t bytes() const { return cells_.size() * sizeof(SuperVoxel); }
 
-  /// Calls visit(tEnter, tExit, bound) for the intervals of the line o + t d (local units), tMin <= t <=
-  /// tMax, in order and without gaps, until visit answers false. Neighbouring empty cells come as one
-  /// interval. The caller has clipped the line to `occupied()` or to the field's box.
+  /// Calls visit(sEnter, sExit, bound) for the intervals of the line (local units), 0 <= s <= length, in
+  /// order and without gaps, until visit answers false. Neighbouring empty cells come as one interval. The
+  /// caller has clipped the line to `occupied()` or to the field's box.
   template <class Visit>
-  void walk(Vec3d o, Vec3d d, double tMin, double tMax, Visit&& visit) const {
+  void walk(const LocalLine& line, double length, Visit&& visit) const {
     const double scale = inverseCellSize_;
-    double entered = tMin;  // where the interval at hand begins
-    double reached = tMin;  // up to where the line is known
+    const LocalLine inCells{line.o * scale, line.d * scale, line.inverse * cellSize_};
+    double entered = 0;  // where the empty stretch at hand begins
+    double reached = 0;  // up to where the line is known
     bool stopped = false;
-    walkLattice(shape_, o * scale, d * scale, tMin, tMax, [&](double tExit, std::size_t cell) {
+    walkLattice(shape_, inCells, 0.0, length, [&](double sExit, std::size_t cell) {
       const SuperVoxel bound = cells_[cell];
       if (bound.upper > 0) {
         if (entered < reached && !visit(entered, reached, SuperVoxel{})) return !(stopped = true);
-        if (!visit(reached, tExit, bound)) return !(stopped = true);
-        entered = tExit;
+        if (!visit(reached, sExit, bound)) return !(stopped = true);
+        entered = sExit;
       }
-      reached = tExit;
+      reached = sExit;
       return true;
     });
     if (!stopped && entered < reached) visit(entered, reached, SuperVoxel{});
@@ -60,7 +66,7 @@ class SuperVoxels {
   Bounds3d occupied_;
   float maximum_ = 0;
   std::size_t emptyCells_ = 0;
-  std::vector<SuperVoxel> cells_;
+  std::vector<SuperVoxel> cells_;  ///< with an apron of empty ones
 };
 
 }  // namespace pbrtmedia

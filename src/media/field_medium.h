@@ -82,7 +82,7 @@ class FieldMedium final : public Medium {
   std::string describe() const override {
     const auto& n = bounds_.shape().count;
     std::ostringstream text;
-    text << field_.describe() << ", super-voxels " << n[0] << " x " << n[1] << " x " << n[2] << " ("
+    text << field_.describe() << ", super-voxels " << n.x << " x " << n.y << " x " << n.z << " ("
          << bounds_.emptyCells() << " empty), estimator " << nameOf(estimator_) << ", sampler "
          << nameOf(sampler_) << ", " << (sigmaT_.isGrey() ? "1 channel" : "3 channels") << ", "
          << field_.bytes() + bounds_.bytes() << " bytes";
