@@ -230,6 +230,10 @@ std::string SourceLocation::toString() const {
 
 void Diagnostics::add(Severity severity, const SourceLocation& at, std::string message) {
   if (severity == Severity::Error) ++errors_;
+  if (items_.size() >= kMaxKept) {
+    ++notKept_;
+    return;
+  }
   items_.push_back({severity, at, std::move(message), {}});
 }
 
@@ -247,6 +251,7 @@ std::string Diagnostics::format() const {
   }
   if (errors > kMaxShown) out += "… and " + std::to_string(errors - kMaxShown) + " more errors\n";
   if (others > kMaxShown) out += "… and " + std::to_string(others - kMaxShown) + " more warnings and notes\n";
+  if (notKept_ > 0) out += "… and " + std::to_string(notKept_) + " more messages\n";
   return out;
 }
 

@@ -73,11 +73,13 @@ class Diagnostics {
   /// `kMaxShown` errors and as many other messages are shown, then the numbers left out.
   std::string format() const;
   static constexpr std::size_t kMaxShown = 50;
+  /// Later items are counted only, so that a hostile file cannot fill the memory with complaints.
+  static constexpr std::size_t kMaxKept = 10000;
 
  private:
   std::vector<Diagnostic> items_;
   std::map<std::string, std::string> kept_;  ///< shown name to text
-  std::size_t errors_ = 0;
+  std::size_t errors_ = 0, notKept_ = 0;
 };
 
 /// "a, b, c" of the names nearest to `found` first (edit distance), then the rest, at most `most` of them.

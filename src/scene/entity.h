@@ -15,7 +15,7 @@ struct Entity {
   std::string type;             ///< "" where the directive is absent (or says "")
   SourceLocation location;      ///< the directive's keyword; no file where the directive is absent
   SourceLocation typeLocation;  ///< the quoted type
-  ParamList params;             ///< MakeNamedX: without the `string type` that gave `type`
+  ParamList params;             ///< MakeNamedX: the `string type` that gave `type` is in it, marked used
   std::shared_ptr<const InputFolders> folders;  ///< for file names in `params`; null where absent
   bool given = false;                           ///< false: the directive is absent, PBRT-v3's default holds
 };

@@ -44,7 +44,7 @@ struct Param {
   struct Mark {
     std::uint32_t line, column, length;
   };
-  static constexpr std::size_t kMaxMarks = 32;  ///< longer lists keep the places of their first tokens only
+  static constexpr std::size_t kMaxMarks = 16;  ///< longer lists keep the places of their first tokens only
 
   ParamKind kind = ParamKind::Float;
   std::string name;

@@ -20,7 +20,8 @@ struct PrintOptions {
 
 /// --cat: a normalised copy of scene files: one directive per line, indented by block, parameters on lines of
 /// their own, comments kept, Include not followed, spectra as rgb. What is printed parses to the same scene.
-/// Problems go to `diagnostics`; printing stops at a statement that cannot be read.
+/// Problems go to `diagnostics`; printing stops at a statement that cannot be read. Throws std::runtime_error
+/// when a mesh file cannot be written.
 void printFiles(std::span<const std::filesystem::path> files, std::ostream& out, Diagnostics& diagnostics,
                 const PrintOptions& options = {});
 void printText(std::string_view text, std::string_view shownName, const std::filesystem::path& folder,

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "scene/lexer.h"
+
+namespace pbrtmedia {
+
+/// A name from the scene in a message.
+inline std::string quotedName(std::string_view name) { return '"' + shown(name) + '"'; }
+
+/// `suggestion` for names that are owned.
+inline std::string suggest(std::string_view found, const std::vector<std::string>& known) {
+  const std::vector<std::string_view> views(known.begin(), known.end());
+  return suggestion(found, views);
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/param_list.h"
+#include "scene/token_stream.h"
+
+namespace pbrtmedia {
+
+struct ParamType;  // a row of the table of type keywords
+
+/// Reads parameter lists (reference 3). Spectra become RGB here.
+class ParamParser {
+ public:
+  ParamParser(TokenStream& tokens, Diagnostics& diagnostics, bool readFiles);
+
+  /// All `"type name" values` up to the next token that is no quoted string. A parameter with a problem is
+  /// reported and left out. Throws SceneError where reading on needs a new directive.
+  ParamList parse(const InputFolders& folders);
+
+ private:
+  struct Values;  // what is being read
+  void parseOne(const InputFolders& folders, ParamList& list);
+  bool readNumbers(Values& v);
+  template <class T, class Sink>
+  bool collect(Values& v, std::vector<T>& block, Sink&& sink);
+  template <class T>
+  bool appendNumber(Values& v, const Token& token, std::vector<T>& block);
+  bool readStrings(Values& v);
+  bool finishSpectrum(Values& v, const std::vector<float>& numbers);
+  bool spectrumFiles(Values& v, const InputFolders& folders);
+  void skipValues(bool bracketed);
+  void problem(const Values& v, const SourceLocation& at, const std::string& message);
+  void lenientProblem(const Values& v, const SourceLocation& at, const std::string& message);
+
+  TokenStream& tokens_;
+  Diagnostics& diagnostics_;
+  bool readFiles_;
+  std::vector<float> floatBlock_;
+  std::vector<int> intBlock_;
+  std::map<std::filesystem::path, std::optional<Rgb>> spectra_;  ///< files read before; nothing: unusable
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The part of SceneBuilder that makes media, textures, materials, lights, shapes and the camera.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "scene/messages.h"
+#include "scene/scene_builder.h"
+
+namespace pbrtmedia {
+void SceneBuilder::applyDefinition(Statement& s) {
+  switch (s.info->id) {
+    case Directive::MakeNamedMedium:
+      return makeMedium(s);
+    case Directive::MediumInterface:
+      return mediumInterface(s);
+    case Directive::Texture:
+      return texture(s);
+    case Directive::Material:
+      return material(s, false);
+    case Directive::MakeNamedMaterial:
+      return material(s, true);
+    case Directive::NamedMaterial:
+      return namedMaterial(s);
+    case Directive::LightSource:
+      return light(s);
+    case Directive::AreaLightSource:
+      return areaLight(s);
+    case Directive::ReverseOrientation:
+      state_.reverseOrientation = !state_.reverseOrientation;
+      return;
+    default:
+      return shape(s);
+  }
+}
+
+void SceneBuilder::camera(Statement& s) {
+  const TransformPair toWorld{state_.ctm->start.inverse(), state_.ctm->end.inverse()};
+  s.moveInto(scene_.camera);
+  scene_.camera.worldFromCamera = std::make_shared<const TransformPair>(toWorld);
+  coordinateSystems_["camera"] = scene_.camera.worldFromCamera;
+}
+
+void SceneBuilder::warnIfAnimated(const Statement& s) {
+  if (!state_.ctm->isAnimated()) return;
+  diagnostics_.warning(s.at,
+                       std::string(s.info->name) + " does not move; the transformation at the start is used");
+}
+
+/// MakeNamedX: the type is a parameter.
+bool SceneBuilder::typeFromParameter(Statement& s, Entity& entity) {
+  const std::string name = s.strings[0].text;
+  s.moveInto(entity);
+  const Param* const type = std::as_const(entity.params).find(ParamKind::String, "type");
+  if (!type || type->size() != 1) {
+    const std::vector<Param>& all = entity.params.all();
+    const auto other = std::find_if(all.begin(), all.end(), [](const Param& p) { return p.name == "type"; });
+    const SourceLocation& at = other != all.end() ? other->valuesAt : s.strings[0].at;
+    diagnostics_.error(at,
+                       std::string(s.info->name) + ' ' + quotedName(name) + ": expected one \"string type\"");
+    return false;
+  }
+  type->used = true;
+  entity.type = std::get<std::vector<std::string>>(type->values)[0];
+  entity.typeLocation = type->valuesAt;
+  return true;
+}
+
+void SceneBuilder::makeMedium(Statement& s) {
+  MediumDescription medium;
+  medium.name = s.strings[0].text;
+  const SourceLocation nameAt = s.strings[0].at;
+  if (medium.name.empty()) throw SceneError(nameAt, "MakeNamedMedium: the name \"\" means vacuum");
+  if (!typeFromParameter(s, medium)) return;
+  warnIfAnimated(s);
+  medium.ctm = state_.ctm;
+  const auto [it, isNew] =
+      mediaByName_.insert_or_assign(medium.name, static_cast<std::uint32_t>(scene_.media.size()));
+  if (!isNew) {
+    const auto earlier = std::find_if(scene_.media.rbegin(), scene_.media.rend(),
+                                      [&](const auto& m) { return m.name == medium.name; });
+    diagnostics_.warning(nameAt, "medium " + quotedName(medium.name) + " was defined before at " +
+                                     earlier->location.toString() + "; later uses take this definition");
+  }
+  scene_.media.push_back(std::move(medium));
+}
+
+void SceneBuilder::mediumInterface(const Statement& s) {
+  MediumPair pair;
+  const Statement::Text& inside = s.strings.front();
+  const Statement::Text& outside = s.strings.back();  // one name stands for both sides
+  pair.inside = {inside.text, inside.at, kNone};
+  pair.outside = {outside.text, outside.at, kNone};
+  state_.media = std::make_shared<const MediumPair>(std::move(pair));
+  state_.mediaSeen = 0;
+}
+
+/// The media in force for something built now: names are looked up at their use, not at MediumInterface.
+const SharedMedia& SceneBuilder::mediaHere(const SourceLocation& user) {
+  if (state_.mediaSeen == scene_.media.size() + 1) return state_.media;
+  MediumPair pair = *state_.media;
+  lookUp(pair.inside, user);
+  lookUp(pair.outside, user);
+  if (pair.inside.index != state_.media->inside.index || pair.outside.index != state_.media->outside.index) {
+    state_.media = std::make_shared<const MediumPair>(std::move(pair));
+  }
+  state_.mediaSeen = scene_.media.size() + 1;
+  return state_.media;
+}
+
+void SceneBuilder::lookUp(MediumUse& use, const SourceLocation& user) {
+  use.index = kNone;
+  if (use.name.empty()) return;
+  if (const auto it = mediaByName_.find(use.name); it != mediaByName_.end()) {
+    use.index = static_cast<std::int32_t>(it->second);
+  } else {
+    missingMedia_.try_emplace(use.name, Missing{use.location, user});
+  }
+}
+
+void SceneBuilder::reportMissingMedia() {
+  std::vector<std::string> names;
+  for (const auto& medium : scene_.media) names.push_back(medium.name);
+  for (const auto& [name, missing] : missingMedia_) {
+    const std::string& wanted = name;
+    const auto later = std::find_if(scene_.media.begin(), scene_.media.end(),
+                                    [&](const auto& m) { return m.name == wanted; });
+    if (later == scene_.media.end()) {
+      diagnostics_.error(missing.named, "undefined medium " + quotedName(name) + suggest(name, names));
+    } else {
+      diagnostics_.lenientError(missing.named, "medium " + quotedName(name) + " is used at " +
+                                                   missing.user.toString() + " but defined only at " +
+                                                   later->location.toString() +
+                                                   "; PBRT-v3 takes vacuum until then");
+    }
+  }
+}
+
+void SceneBuilder::texture(Statement& s) {
+  TextureDescription texture;
+  texture.name = s.strings[0].text;
+  const SourceLocation nameAt = s.strings[0].at;
+  const std::string& flavour = s.strings[1].text;
+  if (flavour != "float" && flavour != "color" && flavour != "spectrum") {
+    const std::array<std::string_view, 3> known{"float", "spectrum", "color"};
+    throw SceneError(s.strings[1].at, "Texture " + quotedName(texture.name) + ": unknown flavour " +
+                                          quotedName(flavour) + suggestion(flavour, known));
+  }
+  texture.flavour = flavour == "float" ? TextureFlavour::Float : TextureFlavour::Spectrum;
+  s.moveInto(texture, 2);
+  warnIfAnimated(s);
+  texture.ctm = state_.ctm;
+  texture.scope = state_.scope;
+  const auto kind = texture.flavour == TextureFlavour::Float ? NameScope::Kind::FloatTexture
+                                                             : NameScope::Kind::SpectrumTexture;
+  if (const auto earlier = NameScope::find(state_.scope, kind, texture.name)) {
+    diagnostics_.warning(nameAt, "texture " + quotedName(texture.name) + " was defined before at " +
+                                     scene_.textures[*earlier].location.toString() +
+                                     "; later uses take this definition");
+  }
+  state_.scope =
+      NameScope::with(state_.scope, kind, texture.name, static_cast<std::uint32_t>(scene_.textures.size()));
+  scene_.textures.push_back(std::move(texture));
+}
+
+void SceneBuilder::material(Statement& s, bool isNamed) {
+  MaterialDescription material;
+  material.scope = state_.scope;
+  const auto index = static_cast<std::uint32_t>(scene_.materials.size());
+  if (!isNamed) {
+    s.moveInto(material);
+    state_.material = static_cast<std::int32_t>(index);
+    scene_.materials.push_back(std::move(material));
+    return;
+  }
+  material.name = s.strings[0].text;
+  const SourceLocation nameAt = s.strings[0].at;
+  // Without a type the name is still bound, so that its uses are no further errors.
+  if (!typeFromParameter(s, material)) material.type.clear();
+  if (const auto earlier = NameScope::find(state_.scope, NameScope::Kind::Material, material.name)) {
+    diagnostics_.warning(nameAt, "material " + quotedName(material.name) + " was defined before at " +
+                                     scene_.materials[*earlier].location.toString() +
+                                     "; later uses take this definition");
+  }
+  state_.scope = NameScope::with(state_.scope, NameScope::Kind::Material, material.name, index);
+  scene_.materials.push_back(std::move(material));
+}
+
+void SceneBuilder::namedMaterial(const Statement& s) {
+  const std::string& name = s.strings[0].text;
+  const auto index = NameScope::find(state_.scope, NameScope::Kind::Material, name);
+  if (!index) {
+    throw SceneError(s.strings[0].at,
+                     "unknown material " + quotedName(name) +
+                         suggest(name, NameScope::names(state_.scope, NameScope::Kind::Material)));
+  }
+  state_.material = static_cast<std::int32_t>(*index);
+}
+
+void SceneBuilder::light(Statement& s) {
+  LightDescription light;
+  s.moveInto(light);
+  warnIfAnimated(s);
+  light.ctm = state_.ctm;
+  light.media = mediaHere(s.at);
+  scene_.lights.push_back(std::move(light));
+}
+
+void SceneBuilder::areaLight(Statement& s) {
+  if (s.strings[0].text.empty()) {
+    state_.areaLight = kNone;
+    return;
+  }
+  state_.areaLight = static_cast<std::int32_t>(scene_.areaLights.size());
+  s.moveInto(scene_.areaLights.emplace_back());
+}
+
+void SceneBuilder::shape(Statement& s) {
+  ShapeDescription shape;
+  s.moveInto(shape);
+  shape.ctm = state_.ctm;
+  shape.media = mediaHere(s.at);
+  shape.scope = state_.scope;
+  shape.material = state_.material;
+  shape.areaLight = state_.areaLight;
+  shape.object = object_;
+  shape.reverseOrientation = state_.reverseOrientation;
+  if (object_ != kNone) {
+    ObjectDescription& object = scene_.objects[static_cast<std::size_t>(object_)];
+    object.shapes.push_back(static_cast<std::uint32_t>(scene_.shapes.size()));
+    if (object.placedShapes != UINT64_MAX) ++object.placedShapes;
+  }
+  scene_.shapes.push_back(std::move(shape));
+}
+
+}  // namespace pbrtmedia

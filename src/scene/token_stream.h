@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/files.h"
+#include "scene/input_folders.h"
+#include "scene/lexer.h"
+
+namespace pbrtmedia {
+
+/// The tokens of a file with those of included files in place. The end of an included file is not seen:
+/// reading goes on in the includer. A token's text is valid until the next token is peeked or taken.
+class TokenStream {
+ public:
+  explicit TokenStream(bool keepComments = false) : keepComments_(keepComments) {}
+
+  /// Reads on in a file; "-" is standard input. Without `includedAt` it takes the place of the one before.
+  /// Throws SceneError when it cannot be read or is no text.
+  /// A stream that cannot be read twice is kept in `diagnostics` for excerpts, if it is small.
+  void pushFile(const std::filesystem::path& path, InputFolders folders, const SourceLocation& includedAt,
+                Diagnostics& diagnostics);
+  /// Reads on in a text that outlives the stream.
+  void pushText(std::string_view text, std::string_view shownName, InputFolders folders);
+
+  const Token& peek();
+  Token take();
+  SourceLocation locate(const Token& token) const;
+  const std::shared_ptr<const InputFolders>& folders(const Token& token) const {
+    return origins_[token.source].folders;
+  }
+  /// Numbers that follow, see Lexer::readFloats; none when a token has been peeked.
+  std::size_t readFloats(float* out, std::size_t most);
+  std::size_t readInts(int* out, std::size_t most);
+  /// Skips tokens, also bad ones, up to a directive or the end.
+  void skipToDirective();
+
+  std::size_t openFiles() const { return open_.size(); }
+  /// "a.pbrt:3:1 -> b.pbrt:1:1" when `path` is being read now, which a further Include would do without end.
+  std::optional<std::string> cycleTo(const std::filesystem::path& path) const;
+
+  /// A comment and the number of the token it precedes, counted by `tokensTaken`.
+  struct Comment {
+    std::string text;
+    std::size_t beforeToken;
+  };
+  const std::vector<Comment>& comments() const { return comments_; }
+  void dropComments(std::size_t count);
+  std::size_t tokensTaken() const { return taken_; }
+
+ private:
+  struct Origin {
+    std::shared_ptr<const std::string> name;
+    std::shared_ptr<const InputFolders> folders;
+  };
+  struct Open {
+    std::optional<FileBytes> file;
+    Lexer lexer;
+    std::uint32_t origin;
+    std::filesystem::path canonical;  ///< empty: not a file
+    SourceLocation includedAt;
+    std::size_t released = 0;
+  };
+  void push(std::optional<FileBytes> file, std::string_view text, std::string_view shownName,
+            InputFolders folders, std::filesystem::path canonical, const SourceLocation& includedAt);
+  void releaseConsumed();
+
+  std::vector<Open> open_;
+  std::vector<Origin> origins_;
+  std::optional<Token> peeked_;
+  std::vector<Comment> comments_;
+  std::size_t taken_ = 0;
+  bool keepComments_;
+};
+
+}  // namespace pbrtmedia
