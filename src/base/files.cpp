@@ -233,9 +233,11 @@ void writeFileAtomically(const std::filesystem::path& path,
   if (!fs::is_directory(folder, error)) throw failed("there is no folder ", folder.string());
 
   static std::atomic<unsigned> counter{0};
-  // The extension stays: writers choose the format by it.
-  const fs::path temporary = folder / ("." + target.stem().string() + ".part" + std::to_string(::getpid()) +
-                                       "-" + std::to_string(counter++) + target.extension().string());
+  std::string name = ".";
+  name.append(target.stem().string()).append(".part").append(std::to_string(::getpid()));
+  name.append("-").append(std::to_string(counter++));
+  name.append(target.extension().string());  // stays: writers choose the format by it
+  const fs::path temporary = folder / name;
   struct Remover {
     const fs::path& file;
     bool armed = true;
