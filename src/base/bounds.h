@@ -60,7 +60,8 @@ struct Span {
 };
 
 /// Clips the line o + t d, t in [tMin, tMax], to the box (slab test). A zero direction component is handled
-/// by inclusion, so a ray lying in a face belongs to the box and 0/0 never forms. Nothing when they miss.
+/// by inclusion, so a ray lying in a face belongs to the box and 0/0 never forms. Nothing when they miss or
+/// the box is empty.
 template <class T>
 std::optional<Span<T>> clipToBox(const Bounds3<T>& box, Vec3<T> o, Vec3<T> d, T tMin, T tMax) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -69,8 +70,8 @@ std::optional<Span<T>> clipToBox(const Bounds3<T>& box, Vec3<T> o, Vec3<T> d, T 
       continue;
     }
     const T inv = T(1) / d[i];
-    T near = (box.min[i] - o[i]) * inv, far = (box.max[i] - o[i]) * inv;
-    if (near > far) std::swap(near, far);
+    const T near = ((d[i] > 0 ? box.min[i] : box.max[i]) - o[i]) * inv;
+    const T far = ((d[i] > 0 ? box.max[i] : box.min[i]) - o[i]) * inv;
     if (near > tMin) tMin = near;
     if (far < tMax) tMax = far;
     if (!(tMin <= tMax)) return std::nullopt;

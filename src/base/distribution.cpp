@@ -2,6 +2,7 @@
 #include "base/distribution.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/math.h"
 
@@ -42,8 +43,11 @@ Distribution1D::Choice Distribution1D::choose(float u) const {
 Distribution1D::Sample Distribution1D::sample(float u) const {
   const Choice c = choose(u);
   const float n = static_cast<float>(size());
-  return {std::min((static_cast<float>(c.index) + c.remapped) / n, kOneMinusEpsilon), c.probability * n,
-          c.index};
+  float x = std::min((static_cast<float>(c.index) + c.remapped) / n, kOneMinusEpsilon);
+  // Rounding must not carry x into a neighbour, which may have another density: `pdf(x)` is this one's.
+  while (x > 0 && static_cast<std::size_t>(x * n) > c.index) x = std::nextafter(x, 0.0f);
+  while (static_cast<std::size_t>(x * n) < c.index) x = std::nextafter(x, 1.0f);
+  return {x, c.probability * n, c.index};
 }
 
 float Distribution1D::pdf(float x) const {

@@ -37,8 +37,8 @@ class Rng {
   std::uint32_t uniformInt(std::uint32_t n) {
     return static_cast<std::uint32_t>(((next() >> 32) * std::uint64_t{n}) >> 32);
   }
-  /// Standard exponential variate, always finite and > 0 (53-bit uniform in (0, 1]).
-  double exponential() { return -std::log(static_cast<double>((next() >> 11) + 1) * 0x1p-53); }
+  /// Standard exponential variate, always finite and > 0 (from the midpoints of 2^52 intervals).
+  double exponential() { return -std::log((static_cast<double>(next() >> 12) + 0.5) * 0x1p-52); }
 
  private:
   std::uint64_t state_[4];

@@ -96,7 +96,8 @@ std::optional<Transform> Transform::lookAt(Vec3d eye, Vec3d look, Vec3d up) {
   if (!(lengthSquared(view) > 0) || !(lengthSquared(up) > 0)) return std::nullopt;
   const Vec3d d = normalize(view);
   const Vec3d side = cross(normalize(up), d);
-  if (!(lengthSquared(side) > 0)) return std::nullopt;
+  constexpr double kParallel = 1e-12;  // sine; rounding leaves about 1e-16
+  if (!(lengthSquared(side) > kParallel * kParallel)) return std::nullopt;
   const Vec3d r = normalize(side), u = cross(d, r);
   const Matrix4 cameraToWorld{
       {{{r.x, u.x, d.x, eye.x}, {r.y, u.y, d.y, eye.y}, {r.z, u.z, d.z, eye.z}, {0, 0, 0, 1}}}};

@@ -19,7 +19,7 @@ struct Matrix4 {
   Matrix4 transposed() const;
   /// Determinant of the upper-left 3 x 3 part.
   double determinant3() const;
-  /// Gauss-Jordan with full pivoting. `singular` tells when no inverse exists; the result is then the
+  /// Gauss-Jordan with partial pivoting. `singular` tells when no inverse exists; the result is then the
   /// identity.
   Matrix4 inverse(bool& singular) const;
 };
@@ -39,7 +39,7 @@ class Transform {
   /// Right-hand rotation by `degrees` about `axis` (any length > 0).
   static Transform rotate(double degrees, Vec3d axis);
   /// World-to-camera for an eye at `eye` looking at `look`: PBRT's left-handed camera space
-  /// (scene-language reference 6.2). Nothing when `up` is parallel to the view or eye equals look.
+  /// (scene-language reference 6.2). Nothing when `up` is parallel to the view (to 1e-12) or eye equals look.
   static std::optional<Transform> lookAt(Vec3d eye, Vec3d look, Vec3d up);
   /// Maps the camera-space frustum to PBRT screen space for the full angle `fovDegrees`.
   static Transform perspective(double fovDegrees, double nearZ, double farZ);
