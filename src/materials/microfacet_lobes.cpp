@@ -27,7 +27,8 @@ std::optional<RefractingFacet> refractingFacet(Vector3f wo, Vector3f wi, float e
   if (!(lengthSquared(sum) > 0)) return std::nullopt;
   const Vector3f h = faceForward(normalize(sum), kNormal);
   const float o = dot(wo, h), i = dot(wi, h);
-  if (o * i >= 0) return std::nullopt;  // the facet would have to refract to the side it came from
+  // The facet must be seen from its front, and refract to its back.
+  if (o * wo.z <= 0 || o * i >= 0) return std::nullopt;
   return RefractingFacet{h, eta, o, i, sqr(o + eta * i)};
 }
 

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "materials/lobes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/math.h"
+#include "materials/bsdf_test_support.h"
+
+namespace pbrtmedia {
+namespace {
+
+using test::polar;
+
+struct LobeCase {
+  std::string name;
+  Lobe lobe;
+};
+
+void PrintTo(const LobeCase& c, std::ostream* os) { *os << c.name; }
+
+const TrowbridgeReitz kAnisotropic(0.25f, 0.5f);
+
+std::vector<LobeCase> lobeCases() {
+  const ConductorFresnel copper{{0.2f, 0.9f, 1.1f}, {3.9f, 2.4f, 2.1f}};
+  return {{"LambertReflection", Lobe({0.2f, 0.5f, 0.8f}, LambertReflection{})},
+          {"LambertTransmission", Lobe({0.2f, 0.5f, 0.8f}, LambertTransmission{})},
+          {"OrenNayar", Lobe(Rgb(0.7f), OrenNayar(25))},
+          {"MicrofacetReflectionDielectric",
+           Lobe(Rgb(0.9f), MicrofacetReflection{kAnisotropic, DielectricFresnel{1, 1.5f}})},
+          {"MicrofacetReflectionConductor",
+           Lobe(Rgb(1), MicrofacetReflection{TrowbridgeReitz(0.3f, 0.3f), copper})},
+          {"MicrofacetReflectionWithoutFresnel",
+           Lobe(Rgb(1), MicrofacetReflection{TrowbridgeReitz(0.8f, 0.2f), NoFresnel{}})},
+          {"MicrofacetTransmission", Lobe(Rgb(0.8f), MicrofacetTransmission{kAnisotropic, 1, 1.5f})},
+          {"MicrofacetTransmissionToThinner",
+           Lobe(Rgb(0.8f), MicrofacetTransmission{TrowbridgeReitz(0.4f, 0.4f), 1.4f, 1})},
+          {"FresnelBlend",
+           Lobe(Rgb(1), FresnelBlend{Rgb(0.4f, 0.2f, 0.6f), Rgb(0.3f, 0.1f, 0.05f), kAnisotropic})}};
+}
+
+const std::vector<Vector3f> kViews{polar(5, 0), polar(45, 40), polar(80, 250), -polar(30, 130),
+                                   -polar(70, 310)};
+
+class SmoothLobe : public testing::TestWithParam<LobeCase> {};
+
+INSTANTIATE_TEST_SUITE_P(All, SmoothLobe, testing::ValuesIn(lobeCases()),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST_P(SmoothLobe, SamplesItsDensity) {
+  std::uint64_t seed = 100;
+  for (const Vector3f wo : kViews) {
+    const test::ChiSquareTest result = test::directionTest(test::viewOf(GetParam().lobe, wo), seed++);
+    EXPECT_GT(result.pValue(), test::kMinPValue) << "wo " << wo << ": " << result;
+  }
+}
+
+TEST_P(SmoothLobe, IntegratesToTheSameBySamplingAndByUniformDirections) {
+  for (const Vector3f wo : kViews) {
+    const test::ScatteringView view = test::viewOf(GetParam().lobe, wo);
+    for (const std::size_t channel : {0u, 2u}) {
+      const test::ZTest z = test::zTest(test::albedoBySampling(view, channel, 5, 20000),
+                                        test::albedoByUniform(view, channel, 6, 100000));
+      EXPECT_LT(std::abs(z.z()), test::kMaxAbsZ) << "wo " << wo << ": " << z;
+    }
+  }
+}
+
+TEST_P(SmoothLobe, ReturnsSamplesThatAgreeWithFAndPdf) {
+  Rng rng(4);
+  for (const Vector3f wo : kViews) {
+    for (int i = 0; i < 500; ++i) {
+      const float u = rng.uniform(), v = rng.uniform();
+      const LobeSample s = GetParam().lobe.sample(wo, {u, v});
+      if (!(s.pdf > 0)) continue;
+      EXPECT_NEAR(length(s.wi), 1, 1e-5f);
+      EXPECT_EQ(s.flags, GetParam().lobe.flags());
+      EXPECT_EQ(s.pdf, GetParam().lobe.pdf(wo, s.wi));
+      EXPECT_EQ(s.f, GetParam().lobe.f(wo, s.wi));
+      EXPECT_EQ(isSameHemisphere(wo, s.wi), any(s.flags & BsdfFlags::Reflection));
+    }
+  }
+}
+
+TEST_P(SmoothLobe, IsReciprocalUpToTheSquaredIndex) {
+  // f(wo, wi) eta_i² = f(wi, wo) eta_o² with the index of the side of each direction.
+  float indexAbove = 1, indexBelow = 1;
+  if (const auto* t = std::get_if<MicrofacetTransmission>(&GetParam().lobe.model())) {
+    indexAbove = t->etaA;
+    indexBelow = t->etaB;
+  }
+  const bool isReflection = any(GetParam().lobe.flags() & BsdfFlags::Reflection);
+  const auto index2 = [&](Vector3f w) { return sqr(w.z > 0 ? indexAbove : indexBelow); };
+  Rng rng(8);
+  int compared = 0;
+  for (int i = 0; i < 500; ++i) {
+    Vector3f a = sampleUniformSphere({rng.uniform(), 0.3f}),
+             b = sampleUniformSphere({rng.uniform(), rng.uniform()});
+    if (isSameHemisphere(a, b) != isReflection) b.z = -b.z;
+    const float there = GetParam().lobe.f(a, b).g * index2(b), back = GetParam().lobe.f(b, a).g * index2(a);
+    // Near total reflection 1 - F is the root of a rounding error; what is left there is below this.
+    if (!isReflection && there + back < 1e-4f) continue;
+    EXPECT_NEAR(there, back, 1e-4f * (there + back) + 1e-7f) << a << b;
+    compared += there > 0 ? 1 : 0;
+  }
+  EXPECT_GT(compared, 20);
+}
+
+TEST_P(SmoothLobe, ReturnsNoMoreEnergyThanItGets) {
+  for (const Vector3f wo : kViews) {
+    // Radiance grows by (eta_o/eta_i)² on its way into the denser side.
+    float squaredIndices = 1;
+    if (const auto* t = std::get_if<MicrofacetTransmission>(&GetParam().lobe.model())) {
+      squaredIndices = sqr(wo.z > 0 ? t->etaB / t->etaA : t->etaA / t->etaB);
+    }
+    const test::RunningStats albedo = test::albedoBySampling(test::viewOf(GetParam().lobe, wo), 1, 9, 20000);
+    EXPECT_LT(albedo.mean() * static_cast<double>(squaredIndices), 1 + 5 * albedo.standardError()) << wo;
+  }
+}
+
+TEST(DirectionTest, RejectsADensityThatIsFivePercentOff) {
+  const Lobe lobe(Rgb(1), LambertReflection{});
+  EXPECT_LT(test::directionTest(test::viewOf(lobe, polar(30, 0)), 3, 0.95).pValue(), test::kMinPValue);
+}
+
+TEST(LambertReflection, IsReflectanceOverPi) {
+  const Lobe lobe({0.2f, 0.5f, 0.8f}, LambertReflection{});
+  EXPECT_EQ(lobe.f(polar(10, 0), polar(50, 90)), Rgb(0.2f, 0.5f, 0.8f) * Rgb(kInvPi));
+  EXPECT_FLOAT_EQ(lobe.pdf(polar(10, 0), polar(60, 90)), 0.5f * kInvPi);
+  EXPECT_EQ(lobe.pdf(polar(10, 0), -polar(60, 90)), 0);
+}
+
+TEST(LambertReflection, HasItsReflectanceAsWeightOfEverySample) {
+  Rng rng(1);
+  const Lobe lobe(Rgb(0.5f), LambertReflection{});
+  for (int i = 0; i < 100; ++i) {
+    const LobeSample s = lobe.sample(polar(20, 0), {rng.uniform(), rng.uniform()});
+    EXPECT_NEAR(s.f.r * s.wi.z / s.pdf, 0.5f, 1e-6f);
+  }
+}
+
+TEST(OrenNayar, IsLambertWithoutRoughness) {
+  const OrenNayar smooth(0);
+  for (const float theta : {0.0f, 30.0f, 80.0f}) {
+    EXPECT_EQ(smooth.f(polar(theta, 10), polar(40, 40)), Rgb(kInvPi)) << theta;
+  }
+}
+
+TEST(OrenNayar, HasTheValueOfTheFormula) {
+  const double sigma = radians(20.0), s2 = sigma * sigma;
+  const double a = 1 - s2 / (2 * (s2 + 0.33)), b = 0.45 * s2 / (s2 + 0.09);
+  const OrenNayar rough(20);
+  // wo at 60°, wi at 30°, 45° apart: alpha 60°, beta 30°.
+  const double expected =
+      (a + b * std::cos(radians(45.0)) * std::sin(radians(60.0)) * std::tan(radians(30.0))) /
+      std::numbers::pi;
+  EXPECT_NEAR(rough.f(polar(60, 0), polar(30, 45)).r, expected, 1e-6);
+  EXPECT_NEAR(rough.f(polar(30, 45), polar(60, 0)).r, expected, 1e-6);
+  EXPECT_NEAR(rough.f(polar(60, 0), polar(30, 135)).r, a / std::numbers::pi, 1e-6);  // from behind: only A
+}
+
+TEST(SpecularReflection, MirrorsAndWeighsByTheCosine) {
+  const Vector3f wo = polar(40, 20);
+  const LobeSample s = Lobe(Rgb(0.9f), SpecularReflection{NoFresnel{}}).sample(wo, {0.5f, 0.5f});
+  EXPECT_EQ(s.wi, Vector3f(-wo.x, -wo.y, wo.z));
+  EXPECT_EQ(s.pdf, 1);
+  EXPECT_NEAR(s.f.g * wo.z, 0.9f, 1e-6f);
+  EXPECT_EQ(s.flags, BsdfFlags::Reflection | BsdfFlags::Specular);
+  const LobeSample glass = Lobe(Rgb(1), SpecularReflection{DielectricFresnel{1, 1.5f}}).sample({0, 0, 1}, {});
+  EXPECT_NEAR(glass.f.r, 0.04f, 1e-6f);
+  const LobeSample below =
+      Lobe(Rgb(1), SpecularReflection{DielectricFresnel{1, 1.5f}}).sample(-polar(60, 0), {});
+  EXPECT_NEAR(below.f.r * std::abs(below.wi.z), 1, 1e-6f);  // total reflection from inside
+  EXPECT_LT(below.wi.z, 0);
+}
+
+TEST(SpecularTransmission, RefractsAndScalesRadianceByTheSquaredIndices) {
+  const Lobe lobe(Rgb(1), SpecularTransmission{1, 1.5f});
+  const LobeSample in = lobe.sample({0, 0, 1}, {});
+  EXPECT_NEAR(in.f.r, 0.96f / 2.25f, 1e-6f);
+  EXPECT_EQ(in.wi, Vector3f(0, 0, -1));
+  const LobeSample out = lobe.sample({0, 0, -1}, {});
+  EXPECT_NEAR(out.f.r, 0.96f * 2.25f, 1e-6f);
+
+  const Vector3f wo = polar(50, 130);
+  const LobeSample s = lobe.sample(wo, {});
+  EXPECT_NEAR(s.wi.x, -wo.x / 1.5f, 1e-6f);
+  EXPECT_NEAR(s.wi.y, -wo.y / 1.5f, 1e-6f);
+  EXPECT_NEAR(s.f.r * std::abs(s.wi.z), (1 - fresnelDielectric(wo.z, 1, 1.5f)) / 2.25f, 1e-6f);
+  EXPECT_EQ(lobe.sample(-polar(45, 0), {}).pdf, 0);  // total reflection
+}
+
+TEST(SpecularTransmission, GoesStraightThroughEqualIndices) {
+  const Vector3f wo = polar(77, 31);
+  const LobeSample s = Lobe(Rgb(0.25f), SpecularTransmission{1, 1}).sample(wo, {});
+  EXPECT_EQ(s.wi, -wo);
+  EXPECT_NEAR(s.f.r * wo.z, 0.25f, 1e-6f);
+}
+
+TEST(FresnelSpecular, ChoosesReflectionWithProbabilityF) {
+  const Vector3f wo = polar(60, 0);
+  const float f = fresnelDielectric(wo.z, 1, 1.5f);
+  const Lobe lobe(Rgb(1), FresnelSpecular{Rgb(0.5f), Rgb(0.25f), 1, 1.5f});
+  EXPECT_EQ(lobe.flags(), BsdfFlags::Reflection | BsdfFlags::Transmission | BsdfFlags::Specular);
+  const LobeSample reflected = lobe.sample(wo, {0.999f * f, 0});
+  EXPECT_EQ(reflected.pdf, f);
+  EXPECT_NEAR(reflected.f.r * reflected.wi.z / reflected.pdf, 0.5f, 1e-6f);
+  EXPECT_EQ(reflected.flags, BsdfFlags::Specular | BsdfFlags::Reflection);
+  const LobeSample refracted = lobe.sample(wo, {1.001f * f, 0});
+  EXPECT_EQ(refracted.pdf, 1 - f);
+  EXPECT_NEAR(refracted.f.r * std::abs(refracted.wi.z) / refracted.pdf, 0.25f / 2.25f, 1e-6f);
+  EXPECT_EQ(refracted.flags, BsdfFlags::Specular | BsdfFlags::Transmission);
+  EXPECT_EQ(lobe.sample(-polar(60, 0), {kOneMinusEpsilon, 0}).flags,
+            BsdfFlags::Specular | BsdfFlags::Reflection);
+}
+
+TEST(MicrofacetReflection, HasTheTorranceSparrowValue) {
+  const TrowbridgeReitz d(0.4f, 0.2f);
+  const Vector3f wo = polar(30, 20), wi = polar(50, 100), h = normalize(wo + wi);
+  const Rgb f = MicrofacetReflection{d, DielectricFresnel{1, 1.5f}}.f(wo, wi);
+  const float expected =
+      d.density(h) * d.maskingShadowing(wo, wi) * fresnelDielectric(dot(wi, h), 1, 1.5f) / (4 * wo.z * wi.z);
+  EXPECT_NEAR(f.r, expected, 1e-5f * expected);
+}
+
+TEST(MicrofacetReflection, LosesLittleEnergyWhenItIsSmooth) {
+  const Lobe lobe(Rgb(1), MicrofacetReflection{TrowbridgeReitz(0.03f, 0.03f), NoFresnel{}});
+  for (const float theta : {0.0f, 30.0f, 60.0f}) {
+    EXPECT_NEAR(test::albedoBySampling(test::viewOf(lobe, polar(theta, 10)), 0, 2, 20000).mean(), 1, 5e-3)
+        << theta;
+  }
+}
+
+TEST(MicrofacetTransmission, KeepsTheEnergyOfGlassTogetherWithReflection) {
+  const TrowbridgeReitz d(0.05f, 0.05f);
+  const Lobe reflection(Rgb(1), MicrofacetReflection{d, DielectricFresnel{1, 1.5f}});
+  const Lobe transmission(Rgb(1), MicrofacetTransmission{d, 1, 1.5f});
+  for (const Vector3f wo : {polar(10, 0), polar(60, 0), -polar(20, 0), -polar(35, 0)}) {
+    const double scale = wo.z > 0 ? 2.25 : 1 / 2.25;
+    const double r = test::albedoBySampling(test::viewOf(reflection, wo), 0, 2, 40000).mean();
+    const double t = test::albedoBySampling(test::viewOf(transmission, wo), 0, 3, 40000).mean();
+    EXPECT_NEAR(r + t * scale, 1, 1e-2) << wo;
+  }
+}
+
+TEST(MicrofacetTransmission, ApproachesSpecularTransmission) {
+  const Lobe smooth(Rgb(1), SpecularTransmission{1, 1.5f});
+  const Lobe rough(Rgb(1), MicrofacetTransmission{TrowbridgeReitz(0.005f, 0.005f), 1, 1.5f});
+  for (const Vector3f wo : {polar(40, 30), -polar(25, 30)}) {
+    const LobeSample s = smooth.sample(wo, {});
+    EXPECT_NEAR(test::albedoBySampling(test::viewOf(rough, wo), 0, 4, 20000).mean(), s.f.r * std::abs(s.wi.z),
+                5e-3);
+  }
+}
+
+TEST(FresnelBlend, HasTheValueOfTheFormula) {
+  const TrowbridgeReitz d(0.3f, 0.5f);
+  const Rgb kd(0.4f, 0.2f, 0.6f), ks(0.3f, 0.1f, 0.05f);
+  const Vector3f wo = polar(30, 20), wi = polar(50, 100), h = normalize(wo + wi);
+  const Rgb found = FresnelBlend{kd, ks, d}.f(wo, wi);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double diffuse = 28 / (23 * std::numbers::pi) * static_cast<double>(kd[c] * (1 - ks[c])) *
+                           (1 - std::pow(1 - 0.5 * static_cast<double>(wi.z), 5)) *
+                           (1 - std::pow(1 - 0.5 * static_cast<double>(wo.z), 5));
+    const double schlick = static_cast<double>(ks[c]) + (1 - static_cast<double>(ks[c])) *
+                                                            std::pow(1 - static_cast<double>(dot(wi, h)), 5);
+    const double specular = static_cast<double>(d.density(h)) * schlick /
+                            (4 * static_cast<double>(dot(wi, h) * std::max(wi.z, wo.z)));
+    EXPECT_NEAR(found[c], diffuse + specular, 1e-5 * (diffuse + specular));
+  }
+}
+
+TEST(FresnelBlend, IsDiffuseWithoutSpecular) {
+  // Ks = 0 at normal incidence with h = n: Schlick's term vanishes too.
+  const Rgb f = FresnelBlend{Rgb(0.5f), Rgb(0), TrowbridgeReitz(0.3f, 0.3f)}.f({0, 0, 1}, {0, 0, 1});
+  EXPECT_NEAR(f.r, 28 / (23 * kPi) * 0.5f * sqr(1 - 0.03125f), 1e-6f);
+}
+
+TEST(Lobe, MultipliesByItsWeight) {
+  Lobe lobe(Rgb(0.5f), LambertReflection{});
+  lobe.scale({1, 2, 0});
+  EXPECT_EQ(lobe.weight(), Rgb(0.5f, 1, 0));
+  EXPECT_EQ(lobe.f({0, 0, 1}, {0, 0, 1}), Rgb(0.5f, 1, 0) * Rgb(kInvPi));
+  EXPECT_EQ(lobe.sample({0, 0, 1}, {0.5f, 0.5f}).f, Rgb(0.5f, 1, 0) * Rgb(kInvPi));
+}
+
+TEST(Lobe, IsSmallEnoughToBeMadePerHit) { EXPECT_LE(sizeof(Lobe), 64u); }
+
+}  // namespace
+}  // namespace pbrtmedia

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "base/math.h"
+#include "materials/bsdf_test_support.h"
+#include "materials/glass.h"
+#include "materials/matte.h"
+#include "materials/metal.h"
+#include "materials/mirror.h"
+#include "materials/mix.h"
+#include "materials/plastic.h"
+#include "materials/substrate.h"
+#include "materials/translucent.h"
+#include "materials/uber.h"
+
+namespace pbrtmedia {
+namespace {
+
+using test::flatSurface;
+using test::polar;
+using RgbConstant = ConstantTexture<Rgb>;
+using FloatConstant = ConstantTexture<float>;
+
+const RgbConstant kBlack(Rgb(0)), kQuarter(Rgb(0.25f)), kHalf(Rgb(0.5f)), kWhite(Rgb(1)), kNegative(Rgb(-1));
+const RgbConstant kReddish(Rgb(0.6f, 0.3f, 0.1f)), kBright(Rgb(2, 0.5f, 0.5f));
+const RgbConstant kEta(kCopperEta), kK(kCopperK);
+const FloatConstant kZero(0), kTenth(0.1f), kFifth(0.2f), kThirty(30), kGlassIndex(1.5f), kHundred(100);
+
+Bsdf evaluate(const Material& material, bool mergeSpecular = true) {
+  SurfaceInteraction si = flatSurface();
+  return material.bsdf(si, mergeSpecular);
+}
+
+UberParams uberParams() {
+  return {.kd = &kQuarter,
+          .ks = &kQuarter,
+          .kr = &kBlack,
+          .kt = &kBlack,
+          .opacity = &kWhite,
+          .roughness = &kTenth,
+          .eta = &kGlassIndex};
+}
+PlasticParams plasticParams() { return {.kd = &kQuarter, .ks = &kQuarter, .roughness = &kTenth}; }
+GlassParams glassParams() {
+  return {.kr = &kWhite, .kt = &kWhite, .eta = &kGlassIndex, .uRoughness = &kZero, .vRoughness = &kZero};
+}
+TranslucentParams translucentParams() {
+  return {.kd = &kQuarter, .ks = &kQuarter, .reflect = &kHalf, .transmit = &kHalf, .roughness = &kTenth};
+}
+MetalParams metalParams() { return {.eta = &kEta, .k = &kK, .roughness = &kTenth}; }
+SubstrateParams substrateParams() {
+  return {.kd = &kHalf, .ks = &kHalf, .uRoughness = &kTenth, .vRoughness = &kFifth};
+}
+
+// Contract: every material that is not only specular samples its own density.
+
+struct MaterialCase {
+  std::string name;
+  std::shared_ptr<const Material> material;
+};
+void PrintTo(const MaterialCase& c, std::ostream* os) { *os << c.name; }
+
+std::vector<MaterialCase> materialCases() {
+  static const MatteMaterial matte({.kd = &kReddish, .sigma = &kZero});
+  static const TranslucentMaterial translucent(translucentParams());
+  GlassParams rough = glassParams();
+  rough.uRoughness = &kTenth;
+  rough.vRoughness = &kFifth;
+  UberParams uber = uberParams();
+  uber.kr = uber.kt = uber.opacity = &kHalf;
+  return {{"Matte", std::make_shared<MatteMaterial>(MatteParams{.kd = &kReddish, .sigma = &kThirty})},
+          {"Plastic", std::make_shared<PlasticMaterial>(plasticParams())},
+          {"RoughGlass", std::make_shared<GlassMaterial>(rough)},
+          {"Metal", std::make_shared<MetalMaterial>(metalParams())},
+          {"Substrate", std::make_shared<SubstrateMaterial>(substrateParams())},
+          {"Translucent", std::make_shared<TranslucentMaterial>(translucentParams())},
+          {"Uber", std::make_shared<UberMaterial>(uber)},
+          {"Mix", std::make_shared<MixMaterial>(matte, translucent, kReddish)}};
+}
+
+class SmoothMaterial : public testing::TestWithParam<MaterialCase> {
+ protected:
+  /// In a frame that is not that of the world.
+  static SurfaceInteraction rotatedSurface() {
+    SurfaceInteraction si = flatSurface();
+    si.n = si.shading.n = polar(50, 70);
+    si.dpdu = si.shading.dpdu = 2.0f * polar(140, 70);
+    si.dpdv = si.shading.dpdv = cross(si.n, si.dpdu);
+    return si;
+  }
+  static std::vector<Vector3f> views(Normal3f n) {
+    const Frame frame = Frame::fromZ(n);
+    return {frame.toWorld(polar(10, 0)), frame.toWorld(polar(60, 200)), frame.toWorld(-polar(40, 100))};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, SmoothMaterial, testing::ValuesIn(materialCases()),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST_P(SmoothMaterial, SamplesItsDensity) {
+  SurfaceInteraction si = rotatedSurface();
+  const Bsdf bsdf = GetParam().material->bsdf(si, true);
+  std::uint64_t seed = 300;
+  for (const Vector3f wo : views(si.n)) {
+    const test::ChiSquareTest result = test::directionTest(test::viewOf(bsdf, wo), seed++);
+    EXPECT_GT(result.pValue(), test::kMinPValue) << "wo " << wo << ": " << result;
+  }
+}
+
+TEST_P(SmoothMaterial, IntegratesToTheSameBySamplingAndByUniformDirections) {
+  SurfaceInteraction si = rotatedSurface();
+  const Bsdf bsdf = GetParam().material->bsdf(si, true);
+  for (const Vector3f wo : views(si.n)) {
+    const test::ScatteringView view = test::viewOf(bsdf, wo);
+    for (const std::size_t channel : {0u, 2u}) {
+      const test::ZTest z = test::zTest(test::albedoBySampling(view, channel, 15, 20000),
+                                        test::albedoByUniform(view, channel, 16, 100000));
+      EXPECT_LT(std::abs(z.z()), test::kMaxAbsZ) << "wo " << wo << ": " << z;
+    }
+  }
+}
+
+TEST_P(SmoothMaterial, HasNoMoreLobesThanItSays) {
+  SurfaceInteraction si = flatSurface();
+  EXPECT_LE(GetParam().material->bsdf(si, true).lobeCount(), GetParam().material->maxLobes());
+  EXPECT_LE(GetParam().material->bsdf(si, false).lobeCount(), GetParam().material->maxLobes());
+}
+
+TEST(MatteMaterial, IsLambertWithoutSigma) {
+  const Bsdf bsdf = evaluate(MatteMaterial({.kd = &kReddish, .sigma = &kZero}));
+  EXPECT_EQ(bsdf.f(polar(20, 0), polar(60, 50)), Rgb(0.6f, 0.3f, 0.1f) * Rgb(kInvPi));
+  EXPECT_EQ(bsdf.eta(), 1);
+}
+
+TEST(MatteMaterial, ClampsReflectanceAtZeroOnlyAndSigmaAtNinety) {
+  EXPECT_EQ(evaluate(MatteMaterial({.kd = &kBright, .sigma = &kZero})).f({0, 0, 1}, {0, 0, 1}).r, 2 * kInvPi);
+  EXPECT_EQ(evaluate(MatteMaterial({.kd = &kNegative, .sigma = &kZero})).lobeCount(), 0u);
+  const FloatConstant ninety(90);
+  const Vector3f wo = polar(60, 0), wi = polar(30, 20);
+  EXPECT_EQ(evaluate(MatteMaterial({.kd = &kHalf, .sigma = &kHundred})).f(wo, wi),
+            evaluate(MatteMaterial({.kd = &kHalf, .sigma = &ninety})).f(wo, wi));
+}
+
+TEST(PlasticMaterial, ReflectsTotallyBeyondFortyTwoDegreesOfHalfAngleAsPbrtDoes) {
+  PlasticParams params = plasticParams();
+  params.kd = &kBlack;
+  const Bsdf bsdf = evaluate(PlasticMaterial(params));
+  const float alpha = TrowbridgeReitz::alphaFromRoughness(0.1f);
+  const MicrofacetReflection full{TrowbridgeReitz(alpha, alpha), NoFresnel{}};
+  const auto fresnelAt = [&](float degrees, float side) {
+    const Vector3f wo = side * polar(degrees, 0), wi = side * polar(degrees, 180);
+    return bsdf.f(wo, wi).r / (0.25f * full.f(wo, wi).r);
+  };
+  EXPECT_NEAR(fresnelAt(0.01f, 1), 0.04f, 1e-5f);
+  EXPECT_LT(fresnelAt(41, 1), 0.6f);
+  EXPECT_NEAR(fresnelAt(42, 1), 1, 1e-5f);
+  EXPECT_NEAR(fresnelAt(70, 1), 1, 1e-5f);
+  // Seen from behind the normal the indices are as one expects.
+  EXPECT_NEAR(fresnelAt(45, -1), fresnelDielectric(std::sqrt(0.5f), 1, 1.5f), 1e-5f);
+}
+
+TEST(PlasticMaterial, AddsDiffuseAndGlossy) {
+  const PlasticMaterial both(plasticParams());
+  PlasticParams onlyGlossy = plasticParams(), onlyDiffuse = plasticParams();
+  onlyGlossy.kd = onlyDiffuse.ks = &kBlack;
+  const Vector3f wo = polar(30, 0), wi = polar(20, 120);
+  EXPECT_NEAR(evaluate(both).f(wo, wi).r, evaluate(PlasticMaterial(onlyGlossy)).f(wo, wi).r + 0.25f * kInvPi,
+              1e-6f);
+  EXPECT_EQ(evaluate(PlasticMaterial(onlyDiffuse)).f(wo, wi), Rgb(0.25f * kInvPi));
+  EXPECT_EQ(both.maxLobes(), 2u);
+  EXPECT_EQ(PlasticMaterial(onlyGlossy).maxLobes(), 1u);
+}
+
+TEST(PlasticMaterial, TakesRoughnessAsAlphaWithoutRemapping) {
+  PlasticParams params = plasticParams();
+  params.remapRoughness = false;
+  const Bsdf bsdf = evaluate(PlasticMaterial(params));
+  const auto& glossy = std::get<MicrofacetReflection>(bsdf.lobe(1).model());
+  EXPECT_EQ(glossy.distribution.alphaX(), 0.1f);
+  EXPECT_EQ(glossy.distribution.alphaY(), 0.1f);
+}
+
+TEST(GlassMaterial, IsOneLobeOrTwoWhenSmooth) {
+  const GlassMaterial glass(glassParams());
+  const Bsdf merged = evaluate(glass, true), split = evaluate(glass, false);
+  ASSERT_EQ(merged.lobeCount(), 1u);
+  ASSERT_EQ(split.lobeCount(), 2u);
+  EXPECT_EQ(merged.eta(), 1.5f);
+  EXPECT_EQ(merged.count(BsdfFlags::AllButSpecular), 0u);
+  const Vector3f wo = polar(60, 0);
+  const float f = fresnelDielectric(wo.z, 1, 1.5f);
+  const BsdfSample reflected = split.sample(wo, {0, 0}, BsdfFlags::Specular | BsdfFlags::Reflection);
+  EXPECT_NEAR(reflected.f.r * absDot(reflected.wi, Vector3f{0, 0, 1}), f, 1e-6f);
+  const BsdfSample refracted = split.sample(wo, {0, 0}, BsdfFlags::Specular | BsdfFlags::Transmission);
+  EXPECT_NEAR(refracted.f.r * std::abs(refracted.wi.z), (1 - f) / 2.25f, 1e-6f);
+  EXPECT_EQ(refracted.pdf, 1);
+}
+
+TEST(GlassMaterial, IsRoughWhenOneRoughnessIsNotZero) {
+  GlassParams params = glassParams();
+  params.uRoughness = &kTenth;
+  const Bsdf remapped = evaluate(GlassMaterial(params));
+  ASSERT_EQ(remapped.lobeCount(), 2u);
+  const auto& d = std::get<MicrofacetReflection>(remapped.lobe(0).model()).distribution;
+  EXPECT_NEAR(d.alphaX(), 0.46176f, 1e-5f);
+  EXPECT_NEAR(d.alphaY(), 0.04727f, 1e-5f);
+  params.remapRoughness = false;
+  const Bsdf plain = evaluate(GlassMaterial(params));
+  EXPECT_EQ(std::get<MicrofacetTransmission>(plain.lobe(1).model()).distribution.alphaY(), 0.001f);
+}
+
+TEST(GlassMaterial, LetsEverythingPassBetweenEqualIndices) {
+  GlassParams params = glassParams();
+  const FloatConstant one(1);
+  params.eta = &one;
+  params.uRoughness = params.vRoughness = &kTenth;
+  const Vector3f wo = polar(40, 10);
+  const BsdfSample s = evaluate(GlassMaterial(params)).sample(wo, {0.3f, 0.3f});
+  EXPECT_NEAR(distance(s.wi, -wo), 0, 1e-6f);
+  EXPECT_NEAR(s.f.r * wo.z / s.pdf, 1, 1e-6f);
+}
+
+TEST(MirrorMaterial, ReflectsTheSameAtEveryAngle) {
+  const Bsdf bsdf = evaluate(MirrorMaterial({.kr = &kReddish}));
+  for (const float theta : {0.0f, 40.0f, 85.0f}) {
+    const Vector3f wo = polar(theta, 30);
+    const BsdfSample s = bsdf.sample(wo, {0.3f, 0.4f});
+    EXPECT_NEAR(s.f.r * wo.z, 0.6f, 1e-5f);
+    EXPECT_NEAR(distance(s.wi, {-wo.x, -wo.y, wo.z}), 0, 1e-6f);
+  }
+}
+
+TEST(MetalMaterial, IsAMicrofacetConductorWithOneRoughnessForBothAxes) {
+  MetalParams params = metalParams();
+  const Bsdf isotropic = evaluate(MetalMaterial(params));
+  const Vector3f wo = polar(30, 0), wi = polar(30, 180);
+  const float alpha = TrowbridgeReitz::alphaFromRoughness(0.1f);
+  const Rgb expected =
+      MicrofacetReflection{TrowbridgeReitz(alpha, alpha), ConductorFresnel{kCopperEta, kCopperK}}.f(wo, wi);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(isotropic.f(wo, wi)[c], expected[c], 1e-5f * expected[c]);
+  params.uRoughness = &kFifth;
+  const Bsdf anisotropic = evaluate(MetalMaterial(params));
+  const auto& d = std::get<MicrofacetReflection>(anisotropic.lobe(0).model()).distribution;
+  EXPECT_NEAR(d.alphaX(), 0.68384f, 1e-5f);
+  EXPECT_NEAR(d.alphaY(), 0.46176f, 1e-5f);
+}
+
+TEST(SubstrateMaterial, IsTheFresnelBlend) {
+  const Bsdf bsdf = evaluate(SubstrateMaterial(substrateParams()));
+  const FresnelBlend blend{
+      Rgb(0.5f), Rgb(0.5f),
+      TrowbridgeReitz(TrowbridgeReitz::alphaFromRoughness(0.1f), TrowbridgeReitz::alphaFromRoughness(0.2f))};
+  const Vector3f wo = polar(30, 0), wi = polar(50, 100);
+  EXPECT_EQ(bsdf.f(wo, wi), blend.f(wo, wi));
+  EXPECT_EQ(bsdf.lobeCount(), 1u);
+}
+
+TEST(TranslucentMaterial, SplitsIntoReflectedAndTransmittedLobes) {
+  const TranslucentMaterial material(translucentParams());
+  const Bsdf bsdf = evaluate(material);
+  EXPECT_EQ(bsdf.lobeCount(), 4u);
+  EXPECT_EQ(bsdf.eta(), 1.5f);
+  const BsdfFlags diffuse = BsdfFlags::Diffuse | BsdfFlags::Reflection | BsdfFlags::Transmission;
+  EXPECT_EQ(bsdf.f(polar(20, 0), polar(40, 0), diffuse), Rgb(0.125f * kInvPi));
+  EXPECT_EQ(bsdf.f(polar(20, 0), -polar(40, 0), diffuse), Rgb(0.125f * kInvPi));
+  TranslucentParams params = translucentParams();
+  params.transmit = &kBlack;
+  EXPECT_EQ(evaluate(TranslucentMaterial(params)).lobeCount(), 2u);
+  EXPECT_EQ(TranslucentMaterial(params).maxLobes(), 2u);
+}
+
+TEST(UberMaterial, MultipliesAllLobesByTheOpacityAndLetsTheRestThrough) {
+  const RgbConstant opacity(Rgb(0.25f, 0.5f, 1));
+  UberParams params = uberParams();
+  params.kr = params.kt = &kHalf;
+  params.opacity = &opacity;
+  const UberMaterial material(params);
+  const Bsdf bsdf = evaluate(material);
+  ASSERT_EQ(bsdf.lobeCount(), 5u);
+  EXPECT_EQ(material.maxLobes(), 5u);
+  EXPECT_EQ(bsdf.eta(), 1);
+  EXPECT_EQ(bsdf.lobe(0).weight(), Rgb(0.75f, 0.5f, 0));
+  EXPECT_EQ(bsdf.lobe(1).weight(), Rgb(0.0625f, 0.125f, 0.25f));
+  EXPECT_EQ(bsdf.lobe(2).weight(), Rgb(0.0625f, 0.125f, 0.25f));
+  EXPECT_EQ(bsdf.lobe(3).weight(), Rgb(0.125f, 0.25f, 0.5f));
+  EXPECT_EQ(bsdf.lobe(4).weight(), Rgb(0.125f, 0.25f, 0.5f));
+  const Vector3f wo = polar(50, 20);
+  const BsdfSample through = bsdf.sample(wo, {0.1f, 0.5f});
+  EXPECT_NEAR(distance(through.wi, -wo), 0, 1e-6f);
+  EXPECT_NEAR(through.f.r * wo.z, 0.75f, 1e-6f);
+  EXPECT_FLOAT_EQ(through.pdf, 0.2f);
+}
+
+TEST(UberMaterial, KeepsItsIndexWhenOpaque) {
+  const UberMaterial material(uberParams());
+  EXPECT_EQ(evaluate(material).eta(), 1.5f);
+  EXPECT_EQ(evaluate(material).lobeCount(), 2u);
+  EXPECT_EQ(material.maxLobes(), 2u);
+}
+
+TEST(UberMaterial, FallsBackFromVToUToRoughness) {
+  UberParams params = uberParams();
+  params.uRoughness = &kFifth;
+  const Bsdf bsdf = evaluate(UberMaterial(params));
+  const auto& d = std::get<MicrofacetReflection>(bsdf.lobe(1).model()).distribution;
+  EXPECT_NEAR(d.alphaX(), 0.68384f, 1e-5f);
+  EXPECT_NEAR(d.alphaY(), 0.68384f, 1e-5f);  // the u value, not roughness
+}
+
+TEST(MixMaterial, ShowsTheFirstMaterialAtAmountOne) {
+  const MatteMaterial red({.kd = &kReddish, .sigma = &kZero}), grey({.kd = &kHalf, .sigma = &kZero});
+  const Vector3f wo = polar(20, 0), wi = polar(40, 0);
+  EXPECT_EQ(evaluate(MixMaterial(red, grey, kWhite)).f(wo, wi), Rgb(0.6f, 0.3f, 0.1f) * Rgb(kInvPi));
+  EXPECT_EQ(evaluate(MixMaterial(red, grey, kBlack)).f(wo, wi), Rgb(0.5f * kInvPi));
+  const Rgb quarter = evaluate(MixMaterial(red, grey, kQuarter)).f(wo, wi);
+  EXPECT_NEAR(quarter.r, (0.25f * 0.6f + 0.75f * 0.5f) * kInvPi, 1e-6f);
+  EXPECT_NEAR(quarter.b, (0.25f * 0.1f + 0.75f * 0.5f) * kInvPi, 1e-6f);
+}
+
+TEST(MixMaterial, WeighsEveryChannelAndClampsTheSecondWeightAtZero) {
+  const MatteMaterial red({.kd = &kReddish, .sigma = &kZero}), grey({.kd = &kHalf, .sigma = &kZero});
+  const Rgb f = evaluate(MixMaterial(red, grey, kBright)).f(polar(20, 0), polar(40, 0));  // (2, 0.5, 0.5)
+  EXPECT_NEAR(f.r, 2 * 0.6f * kInvPi, 1e-6f);
+  EXPECT_NEAR(f.g, 0.5f * (0.3f + 0.5f) * kInvPi, 1e-6f);
+}
+
+TEST(MixMaterial, KeepsTheIndexOfTheFirstMaterial) {
+  const MatteMaterial matte({.kd = &kHalf, .sigma = &kZero});
+  const GlassMaterial glass(glassParams());
+  EXPECT_EQ(evaluate(MixMaterial(glass, matte, kHalf)).eta(), 1.5f);
+  EXPECT_EQ(evaluate(MixMaterial(matte, glass, kHalf)).eta(), 1);
+}
+
+TEST(MixMaterial, ScalesCoatsAndMergedGlassAsAWhole) {
+  const SubstrateMaterial substrate(substrateParams());
+  const GlassMaterial glass(glassParams());
+  const Bsdf mixed = evaluate(MixMaterial(substrate, glass, kQuarter));
+  const Vector3f wo = polar(30, 0), wi = polar(50, 100);
+  EXPECT_NEAR(mixed.f(wo, wi).r, 0.25f * evaluate(substrate).f(wo, wi).r, 1e-6f);
+  const BsdfSample s = mixed.sample(wo, {0.99f, 0.5f});  // the glass lobe, refracted
+  EXPECT_NEAR(s.f.r * std::abs(s.wi.z) / s.pdf, 2 * 0.75f / 2.25f, 1e-5f);
+}
+
+TEST(MixMaterial, RefusesMoreLobesThanABsdfHolds) {
+  UberParams params = uberParams();
+  params.kr = params.kt = params.opacity = &kHalf;
+  const UberMaterial full(params);
+  const TranslucentMaterial translucent(translucentParams());
+  const UberMaterial opaque(uberParams());
+  EXPECT_THROW(MixMaterial(full, translucent, kHalf), std::invalid_argument);  // 5 + 4
+  const MixMaterial fits(translucent, opaque, kHalf);                          // 4 + 2
+  EXPECT_EQ(fits.maxLobes(), 6u);
+  EXPECT_EQ(evaluate(fits).lobeCount(), 6u);
+  EXPECT_THROW(MixMaterial(fits, translucent, kHalf), std::invalid_argument);
+  EXPECT_NO_THROW(MixMaterial(fits, opaque, kHalf));
+}
+
+TEST(Materials, RefuseMissingTextures) {
+  EXPECT_THROW(MatteMaterial({.kd = &kHalf}), std::invalid_argument);
+  EXPECT_THROW(PlasticMaterial({}), std::invalid_argument);
+  EXPECT_THROW(GlassMaterial({}), std::invalid_argument);
+  EXPECT_THROW(MirrorMaterial({}), std::invalid_argument);
+  EXPECT_THROW(MetalMaterial({.eta = &kEta, .k = &kK, .uRoughness = &kTenth}), std::invalid_argument);
+  EXPECT_THROW(SubstrateMaterial({}), std::invalid_argument);
+  EXPECT_THROW(TranslucentMaterial({}), std::invalid_argument);
+  UberParams params = uberParams();
+  params.roughness = nullptr;
+  EXPECT_THROW(UberMaterial{params}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace pbrtmedia
