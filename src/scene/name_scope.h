@@ -18,7 +18,7 @@ namespace pbrtmedia {
 /// Layers of doubling size: `n` definitions cost O(n log n) in total, a look-up O(log n) layers.
 class NameScope {
  public:
-  enum class Kind : std::uint8_t { FloatTexture, SpectrumTexture, Material };
+  enum class Kind : std::uint8_t { FloatTextures, SpectrumTextures, Materials };
   using Ptr = std::shared_ptr<const NameScope>;  ///< null is the empty scope
 
   /// `scope` with `name` bound to `index`; hides an earlier binding of the same kind and name.

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "base/hash.h"
 #include "scene/scene_builder.h"
 
 namespace pbrtmedia {
@@ -43,7 +44,9 @@ class Parser {
 
   std::vector<SceneDescription> finish() {
     if (!stopped_) builder_.finish();
-    return builder_.take();
+    std::vector<SceneDescription> worlds = builder_.take();
+    for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i].textHash = hashCombine(tokens_.textHash(), i);
+    return worlds;
   }
 
  private:

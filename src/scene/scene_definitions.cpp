@@ -151,8 +151,8 @@ void SceneBuilder::texture(Statement& s) {
   warnIfAnimated(s);
   texture.ctm = state_.ctm;
   texture.scope = state_.scope;
-  const auto kind = texture.flavour == TextureFlavour::Float ? NameScope::Kind::FloatTexture
-                                                             : NameScope::Kind::SpectrumTexture;
+  const auto kind = texture.flavour == TextureFlavour::Float ? NameScope::Kind::FloatTextures
+                                                             : NameScope::Kind::SpectrumTextures;
   if (const auto earlier = NameScope::find(state_.scope, kind, texture.name)) {
     diagnostics_.warning(nameAt, "texture " + quotedName(texture.name) + " was defined before at " +
                                      scene_.textures[*earlier].location.toString() +
@@ -177,22 +177,22 @@ void SceneBuilder::material(Statement& s, bool isNamed) {
   const SourceLocation nameAt = s.strings[0].at;
   // Without a type the name is still bound, so that its uses are no further errors.
   if (!typeFromParameter(s, material)) material.type.clear();
-  if (const auto earlier = NameScope::find(state_.scope, NameScope::Kind::Material, material.name)) {
+  if (const auto earlier = NameScope::find(state_.scope, NameScope::Kind::Materials, material.name)) {
     diagnostics_.warning(nameAt, "material " + quotedName(material.name) + " was defined before at " +
                                      scene_.materials[*earlier].location.toString() +
                                      "; later uses take this definition");
   }
-  state_.scope = NameScope::with(state_.scope, NameScope::Kind::Material, material.name, index);
+  state_.scope = NameScope::with(state_.scope, NameScope::Kind::Materials, material.name, index);
   scene_.materials.push_back(std::move(material));
 }
 
 void SceneBuilder::namedMaterial(const Statement& s) {
   const std::string& name = s.strings[0].text;
-  const auto index = NameScope::find(state_.scope, NameScope::Kind::Material, name);
+  const auto index = NameScope::find(state_.scope, NameScope::Kind::Materials, name);
   if (!index) {
     throw SceneError(s.strings[0].at,
                      "unknown material " + quotedName(name) +
-                         suggest(name, NameScope::names(state_.scope, NameScope::Kind::Material)));
+                         suggest(name, NameScope::names(state_.scope, NameScope::Kind::Materials)));
   }
   state_.material = static_cast<std::int32_t>(*index);
 }

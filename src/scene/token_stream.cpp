@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/hash.h"
 #include "scene/directives.h"
 
 namespace pbrtmedia {
@@ -42,12 +43,21 @@ void TokenStream::push(std::optional<FileBytes> file, std::string_view text, std
   if (const std::string_view foreign = foreignEncoding(text); !foreign.empty()) {
     throw SceneError({name, 0, 0, 1}, "this is " + std::string(foreign));
   }
+  addToHash(file ? &*file : nullptr, text);
   if (!includedAt.file) open_.clear();
   const std::size_t start = text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;  // UTF-8 byte order mark
   open_.push_back({std::move(file), Lexer(text, start, keepComments_),
                    static_cast<std::uint32_t>(origins_.size()), std::move(canonical), includedAt});
   origins_.push_back({std::move(name), std::make_shared<const InputFolders>(std::move(folders))});
   peeked_.reset();
+}
+
+void TokenStream::addToHash(const FileBytes* file, std::string_view text) {
+  textHash_ = hashCombine(textHash_, text.size());
+  for (std::size_t at = 0; at < text.size(); at += kReleaseStep) {
+    textHash_ = hashText(text.substr(at, kReleaseStep), textHash_);
+    if (file != nullptr && file->isMapped()) file->releaseUpTo(at);
+  }
 }
 
 void TokenStream::pushText(std::string_view text, std::string_view shownName, InputFolders folders) {

@@ -41,6 +41,9 @@ class TokenStream {
   /// Skips tokens, also bad ones, up to a directive or the end.
   void skipToDirective();
 
+  /// Hash of every text pushed so far, in order.
+  std::uint64_t textHash() const { return textHash_; }
+
   std::size_t openFiles() const { return open_.size(); }
   /// "a.pbrt:3:1 -> b.pbrt:1:1" when `path` is being read now, which a further Include would do without end.
   std::optional<std::string> cycleTo(const std::filesystem::path& path) const;
@@ -70,12 +73,14 @@ class TokenStream {
   void push(std::optional<FileBytes> file, std::string_view text, std::string_view shownName,
             InputFolders folders, std::filesystem::path canonical, const SourceLocation& includedAt);
   void releaseConsumed();
+  void addToHash(const FileBytes* file, std::string_view text);
 
   std::vector<Open> open_;
   std::vector<Origin> origins_;
   std::optional<Token> peeked_;
   std::vector<Comment> comments_;
   std::size_t taken_ = 0;
+  std::uint64_t textHash_ = 0;
   bool keepComments_;
 };
 
