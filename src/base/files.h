@@ -27,6 +27,8 @@ class FileBytes {
 
   std::string_view text() const { return {data_, size_}; }
   std::span<const std::byte> bytes() const { return {reinterpret_cast<const std::byte*>(data_), size_}; }
+  /// Backed by the file itself: released bytes can be read again.
+  bool isMapped() const { return mapped_; }
   /// Gives back the memory of the first `count` bytes. They must not be read again: what was unpacked or came
   /// from a stream reads as zeros from now on.
   void releaseUpTo(std::size_t count) const;
