@@ -2,134 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <memory>
 #include <stdexcept>
-#include <string>
 
 #include "base/math.h"
-#include "materials/bsdf_test_support.h"
-#include "materials/glass.h"
+#include "materials/material_test_support.h"
 #include "materials/matte.h"
-#include "materials/metal.h"
 #include "materials/mirror.h"
 #include "materials/mix.h"
-#include "materials/plastic.h"
-#include "materials/substrate.h"
-#include "materials/translucent.h"
-#include "materials/uber.h"
 
 namespace pbrtmedia {
 namespace {
 
-using test::flatSurface;
-using test::polar;
-using RgbConstant = ConstantTexture<Rgb>;
-using FloatConstant = ConstantTexture<float>;
-
-const RgbConstant kBlack(Rgb(0)), kQuarter(Rgb(0.25f)), kHalf(Rgb(0.5f)), kWhite(Rgb(1)), kNegative(Rgb(-1));
-const RgbConstant kReddish(Rgb(0.6f, 0.3f, 0.1f)), kBright(Rgb(2, 0.5f, 0.5f));
-const RgbConstant kEta(kCopperEta), kK(kCopperK);
-const FloatConstant kZero(0), kTenth(0.1f), kFifth(0.2f), kThirty(30), kGlassIndex(1.5f), kHundred(100);
-
-Bsdf evaluate(const Material& material, bool mergeSpecular = true) {
-  SurfaceInteraction si = flatSurface();
-  return material.bsdf(si, mergeSpecular);
-}
-
-UberParams uberParams() {
-  return {.kd = &kQuarter,
-          .ks = &kQuarter,
-          .kr = &kBlack,
-          .kt = &kBlack,
-          .opacity = &kWhite,
-          .roughness = &kTenth,
-          .eta = &kGlassIndex};
-}
-PlasticParams plasticParams() { return {.kd = &kQuarter, .ks = &kQuarter, .roughness = &kTenth}; }
-GlassParams glassParams() {
-  return {.kr = &kWhite, .kt = &kWhite, .eta = &kGlassIndex, .uRoughness = &kZero, .vRoughness = &kZero};
-}
-TranslucentParams translucentParams() {
-  return {.kd = &kQuarter, .ks = &kQuarter, .reflect = &kHalf, .transmit = &kHalf, .roughness = &kTenth};
-}
-MetalParams metalParams() { return {.eta = &kEta, .k = &kK, .roughness = &kTenth}; }
-SubstrateParams substrateParams() {
-  return {.kd = &kHalf, .ks = &kHalf, .uRoughness = &kTenth, .vRoughness = &kFifth};
-}
-
-// Contract: every material that is not only specular samples its own density.
-
-struct MaterialCase {
-  std::string name;
-  std::shared_ptr<const Material> material;
-};
-void PrintTo(const MaterialCase& c, std::ostream* os) { *os << c.name; }
-
-std::vector<MaterialCase> materialCases() {
-  static const MatteMaterial matte({.kd = &kReddish, .sigma = &kZero});
-  static const TranslucentMaterial translucent(translucentParams());
-  GlassParams rough = glassParams();
-  rough.uRoughness = &kTenth;
-  rough.vRoughness = &kFifth;
-  UberParams uber = uberParams();
-  uber.kr = uber.kt = uber.opacity = &kHalf;
-  return {{"Matte", std::make_shared<MatteMaterial>(MatteParams{.kd = &kReddish, .sigma = &kThirty})},
-          {"Plastic", std::make_shared<PlasticMaterial>(plasticParams())},
-          {"RoughGlass", std::make_shared<GlassMaterial>(rough)},
-          {"Metal", std::make_shared<MetalMaterial>(metalParams())},
-          {"Substrate", std::make_shared<SubstrateMaterial>(substrateParams())},
-          {"Translucent", std::make_shared<TranslucentMaterial>(translucentParams())},
-          {"Uber", std::make_shared<UberMaterial>(uber)},
-          {"Mix", std::make_shared<MixMaterial>(matte, translucent, kReddish)}};
-}
-
-class SmoothMaterial : public testing::TestWithParam<MaterialCase> {
- protected:
-  /// In a frame that is not that of the world.
-  static SurfaceInteraction rotatedSurface() {
-    SurfaceInteraction si = flatSurface();
-    si.n = si.shading.n = polar(50, 70);
-    si.dpdu = si.shading.dpdu = 2.0f * polar(140, 70);
-    si.dpdv = si.shading.dpdv = cross(si.n, si.dpdu);
-    return si;
-  }
-  static std::vector<Vector3f> views(Normal3f n) {
-    const Frame frame = Frame::fromZ(n);
-    return {frame.toWorld(polar(10, 0)), frame.toWorld(polar(60, 200)), frame.toWorld(-polar(40, 100))};
-  }
-};
-INSTANTIATE_TEST_SUITE_P(All, SmoothMaterial, testing::ValuesIn(materialCases()),
-                         [](const auto& tested) { return tested.param.name; });
-
-TEST_P(SmoothMaterial, SamplesItsDensity) {
-  SurfaceInteraction si = rotatedSurface();
-  const Bsdf bsdf = GetParam().material->bsdf(si, true);
-  std::uint64_t seed = 300;
-  for (const Vector3f wo : views(si.n)) {
-    const test::ChiSquareTest result = test::directionTest(test::viewOf(bsdf, wo), seed++);
-    EXPECT_GT(result.pValue(), test::kMinPValue) << "wo " << wo << ": " << result;
-  }
-}
-
-TEST_P(SmoothMaterial, IntegratesToTheSameBySamplingAndByUniformDirections) {
-  SurfaceInteraction si = rotatedSurface();
-  const Bsdf bsdf = GetParam().material->bsdf(si, true);
-  for (const Vector3f wo : views(si.n)) {
-    const test::ScatteringView view = test::viewOf(bsdf, wo);
-    for (const std::size_t channel : {0u, 2u}) {
-      const test::ZTest z = test::zTest(test::albedoBySampling(view, channel, 15, 20000),
-                                        test::albedoByUniform(view, channel, 16, 100000));
-      EXPECT_LT(std::abs(z.z()), test::kMaxAbsZ) << "wo " << wo << ": " << z;
-    }
-  }
-}
-
-TEST_P(SmoothMaterial, HasNoMoreLobesThanItSays) {
-  SurfaceInteraction si = flatSurface();
-  EXPECT_LE(GetParam().material->bsdf(si, true).lobeCount(), GetParam().material->maxLobes());
-  EXPECT_LE(GetParam().material->bsdf(si, false).lobeCount(), GetParam().material->maxLobes());
-}
+using namespace test;  // constants by the dozen
 
 TEST(MatteMaterial, IsLambertWithoutSigma) {
   const Bsdf bsdf = evaluate(MatteMaterial({.kd = &kReddish, .sigma = &kZero}));
