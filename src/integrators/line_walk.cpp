@@ -2,24 +2,32 @@
 #include "integrators/line_walk.h"
 
 namespace pbrtmedia {
+namespace {
 
-/// Forgets crossings that lie behind tMin. What the ray starts or ends on stays left out: another query would
+/// Crossings are remembered over this share of the coordinates: a line through a common edge of two triangles
+/// may hit both, some roundings apart, and the accelerator must see that it is one crossing.
+constexpr float kRemembered = 1e-4f;
+
+}  // namespace
+
+/// Forgets crossings that lie behind `t`. What the ray starts or ends on stays left out: another query would
 /// report it at a t that rounding decides.
-void LineWalk::dropPassed() {
+void LineWalk::forgetBefore(float t) {
   Exclusions kept = fixed_;
   for (const Exclusions::Entry& e : exclusions_.entries().subspan(fixed_.entries().size())) {
-    if (e.t >= tMin_) kept.add(e.id, e.t);
+    if (e.t >= t) kept.add(e.id, e.t);
   }
   exclusions_ = kept;
 }
 
 void LineWalk::advancePast(const RayHit& hit) {
-  // One float below t, as queries are strict: what coincides with this hit must still be found.
-  tMin_ = std::max(tMin_, std::nextafter(hit.t, 0.0f));
-  dropPassed();
+  tMin_ = hit.t;
+  forgetBefore(tMin_ - kRemembered * (tMin_ + maxComponent(abs(ray_.o))));
+  if (exclusions_.add(hit.id, hit.t)) return;
+  forgetBefore(tMin_);
   if (exclusions_.add(hit.id, hit.t)) return;
   // More coincident surfaces than can be left out one by one: the others at this very t are passed over.
-  tMin_ = hit.t;
+  tMin_ = std::nextafter(hit.t, kInfinity);
   exclusions_ = fixed_;
   exclusions_.add(hit.id, hit.t);
 }

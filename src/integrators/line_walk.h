@@ -28,7 +28,7 @@ class LineWalk {
 
  private:
   void advancePast(const RayHit& hit);
-  void dropPassed();
+  void forgetBefore(float t);
 
   const Scene& scene_;
   const Ray& ray_;

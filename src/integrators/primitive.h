@@ -23,11 +23,11 @@ struct MediumInterface {
 struct Primitive {
   const Shape* shape = nullptr;        ///< required
   const Material* material = nullptr;  ///< null: no material, the surface is passed straight through
-  MediumInterface media;
+  MediumInterface media{};
   const FloatTexture* alpha = nullptr;        ///< hits where it is exactly 0 do not exist; null: opaque
   const FloatTexture* shadowAlpha = nullptr;  ///< the same, for yes/no occlusion rays only
   /// One light for each of the shape's primitives, or none at all: the surface does not emit.
-  std::vector<AreaLight*> areaLights;
+  std::vector<AreaLight*> areaLights{};
 
   /// Passing through it can be ignored altogether.
   bool isInvisible() const { return !material && media.same() && areaLights.empty(); }

@@ -103,7 +103,7 @@ class RenderLoop {
   /// Under a time limit the first passes are small, so that the whole film gets samples before time runs out.
   std::int64_t passSize(int pass) const {
     if (options_.samplesPerPass) return std::max(1, *options_.samplesPerPass);
-    const auto perSample = static_cast<std::size_t>(bounds_.area()) * sizeof(SamplePass::Sample);
+    const auto perSample = static_cast<std::size_t>(film_.sampleBounds().area()) * sizeof(SamplePass::Sample);
     const auto byMemory = static_cast<std::int64_t>(std::max<std::size_t>(1, kPassBytes / perSample));
     if (options_.timeLimit == std::numeric_limits<double>::infinity()) return byMemory;
     return std::min(byMemory, std::int64_t{1} << std::min(pass, 30));
@@ -120,7 +120,7 @@ class RenderLoop {
 
   /// Samples [first, first + count) of every pixel. False: stopped on the way.
   bool renderPass(std::int64_t first, int count) {
-    SamplePass pass(bounds_, count);
+    SamplePass pass(film_.sampleBounds(), count);
     std::vector<Tile> tiles = tilesOf(bounds_, std::max(1, options_.tileSize));
     parallelFor(tiles.size(), [&](std::size_t i) { renderTile(tiles[i], pass, first, count); });
     film_.accumulate(pass);

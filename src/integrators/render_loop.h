@@ -25,17 +25,17 @@ struct RenderProgress {
 struct RenderOptions {
   std::uint64_t seed = 0;  ///< of the Rng of every sample; the sampler has its own copy
   /// Samples per pixel instead of the sampler's own count.
-  std::optional<std::int64_t> samplesPerPixel;
-  std::int64_t firstSample = 0;         ///< sample indices below it are taken as done elsewhere
-  std::optional<Bounds2i> pixelBounds;  ///< further limits where samples are taken
-  int tileSize = 16;                    ///< pixels; has no effect on the image
-  std::optional<int> samplesPerPass;    ///< has no effect on the image; default: by memory
+  std::optional<std::int64_t> samplesPerPixel = std::nullopt;
+  std::int64_t firstSample = 0;  ///< sample indices below it are taken as done elsewhere
+  std::optional<Bounds2i> pixelBounds = std::nullopt;  ///< further limits where samples are taken
+  int tileSize = 16;                                   ///< pixels; has no effect on the image
+  std::optional<int> samplesPerPass = std::nullopt;    ///< has no effect on the image; default: by memory
   double timeLimit = std::numeric_limits<double>::infinity();  ///< seconds of rendering
   const std::atomic<bool>* stop = nullptr;                     ///< set to true: stop soon
   /// Called on the calling thread after each pass, when the film holds everything taken so far. False: stop.
-  std::function<bool(const RenderProgress&)> afterPass;
+  std::function<bool(const RenderProgress&)> afterPass{};
   /// Called about ten times a second, from any one thread at a time.
-  std::function<void(const RenderProgress&)> progress;
+  std::function<void(const RenderProgress&)> progress{};
   std::size_t maxRecords = 16;  ///< dropped samples and mismatches that are kept
 };
 

@@ -56,10 +56,10 @@ class Scene {
   Scene& operator=(const Scene&) = delete;
   ~Scene();
 
-  /// Closest hit with tMin < t < ray.tMax. `queries`: a counter, incremented.
+  /// Closest hit with tMin <= t < ray.tMax of what is not excluded. `queries`: a counter, incremented.
   std::optional<SceneHit> closest(const Ray& ray, float tMin, const Exclusions& exclusions,
                                   std::uint64_t& queries) const;
-  /// Whether a surface with a material lies in (tMin, ray.tMax); shadowalpha applies. Surfaces without
+  /// Whether a surface with a material lies in [tMin, ray.tMax); shadowalpha applies. Surfaces without
   /// material do not block. Media are not considered. `queries`: a counter, incremented.
   bool occluded(const Ray& ray, float tMin, const Exclusions& exclusions, std::uint64_t& queries) const;
   /// World-space surface point of a hit of `ray`, without footprint.
