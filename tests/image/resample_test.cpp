@@ -62,7 +62,7 @@ TEST(Resize, ResetsWindowsAndKeepsMetadata) {
   Image image = patternImage(4, 4);
   image.dataWindow = {{2, 2}, {6, 6}};
   image.displayWindow = {{0, 0}, {9, 9}};
-  image.metadata["seed"] = "3";
+  image.metadata = {{"seed", "3"}};
   const Image out = resize(image, 2, 2, ResizeFilter::Box);
   EXPECT_EQ(out.dataWindow, (Bounds2i{{0, 0}, {2, 2}}));
   EXPECT_EQ(out.displayWindow, out.dataWindow);

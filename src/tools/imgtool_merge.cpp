@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "tools/imgtool_merge.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+namespace pbrtmedia {
+namespace {
+
+constexpr double kMaxSamples = 0x1p53;  // counts above are no longer exact as double
+
+[[noreturn]] void fail(const std::string& name, const std::string& message) {
+  throw std::runtime_error(name + ": " + message);
+}
+
+std::optional<std::string> metadata(const Image& image, const std::string& key) {
+  const auto found = image.metadata.find(key);
+  if (found == image.metadata.end()) return std::nullopt;
+  return found->second;
+}
+
+std::string required(const NamedImage& input, const std::string& key) {
+  const auto value = metadata(input.image, key);
+  if (!value)
+    fail(input.name, "no metadata \"" + key + "\"; only renders that were not processed can be merged");
+  return *value;
+}
+
+template <class T>
+std::optional<T> parseWhole(const std::string& text) {
+  T value{};
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+double samplesOf(const NamedImage& input) {
+  const std::string text = required(input, "samples");
+  const std::optional<double> samples = parseWhole<double>(text);
+  if (!samples || !(*samples > 0) || !(*samples < kMaxSamples)) {
+    fail(input.name, "metadata \"samples\" should be a count above 0, found \"" + text + "\"");
+  }
+  return *samples;
+}
+
+/// Seeds of a render, or of an earlier merge: "3" or "3,4,7".
+std::vector<std::uint64_t> seedsOf(const NamedImage& input) {
+  const std::string text = required(input, "seed");
+  std::vector<std::uint64_t> seeds;
+  std::istringstream in(text + ",");
+  for (std::string word; std::getline(in, word, ',');) {
+    const std::optional<std::uint64_t> seed = parseWhole<std::uint64_t>(word);
+    if (!seed) fail(input.name, "metadata \"seed\" should be whole numbers, found \"" + text + "\"");
+    seeds.push_back(*seed);
+  }
+  return seeds;
+}
+
+void requireSameScene(const NamedImage& first, const NamedImage& other) {
+  const Image &a = first.image, &b = other.image;
+  const std::string pair = first.name + " and " + other.name;
+  if (a.width() != b.width() || a.height() != b.height()) fail(pair, "different sizes");
+  if (!(a.dataWindow == b.dataWindow) || !(a.displayWindow == b.displayWindow))
+    fail(pair, "different windows");
+  if (a.channels() != b.channels()) fail(pair, "different channels");
+  if (required(first, "sceneHash") != required(other, "sceneHash")) {
+    fail(pair, "different scenes (metadata \"sceneHash\")");
+  }
+}
+
+void addWeighted(std::vector<double>& sum, const NamedImage& input, double weight) {
+  const std::vector<float>& values = input.image.data();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) {
+      const std::size_t pixel = i / input.image.channelCount();
+      const std::size_t width = static_cast<std::size_t>(input.image.width());
+      fail(input.name, "the value at pixel (" + std::to_string(pixel % width) + ", " +
+                           std::to_string(pixel / width) + ") is not finite");
+    }
+    sum[i] += weight * static_cast<double>(values[i]);
+  }
+}
+
+std::string countText(double v) {
+  std::ostringstream out;
+  out.precision(17);
+  out << v;
+  return out.str();
+}
+
+/// Values of a key that all inputs agree on.
+void keepCommon(const std::vector<NamedImage>& inputs, const std::string& key, Image& out) {
+  const auto first = metadata(inputs.front().image, key);
+  for (const NamedImage& input : inputs) {
+    if (metadata(input.image, key) != first) return;
+  }
+  if (first) out.metadata[key] = *first;
+}
+
+void sumSeconds(const std::vector<NamedImage>& inputs, Image& out) {
+  double sum = 0;
+  for (const NamedImage& input : inputs) {
+    const auto text = metadata(input.image, "seconds");
+    const auto seconds = text ? parseWhole<double>(*text) : std::nullopt;
+    if (!seconds) return;
+    sum += *seconds;
+  }
+  std::ostringstream text;
+  text << sum;
+  out.metadata["seconds"] = text.str();
+}
+
+}  // namespace
+
+Image mergeRenders(const std::vector<NamedImage>& inputs) {
+  if (inputs.empty()) throw std::runtime_error("nothing to merge");
+  std::map<std::uint64_t, std::string> owners;
+  std::string seedList;
+  double totalSamples = 0;
+  std::vector<double> sum(inputs.front().image.data().size());
+  for (const NamedImage& input : inputs) {
+    requireSameScene(inputs.front(), input);
+    for (const std::uint64_t seed : seedsOf(input)) {
+      const auto [owner, isNew] = owners.emplace(seed, input.name);
+      if (!isNew) {
+        fail(owner->second + " and " + input.name,
+             "both used seed " + std::to_string(seed) + ", so they hold the same samples");
+      }
+      if (!seedList.empty()) seedList += ',';
+      seedList += std::to_string(seed);
+    }
+    const double samples = samplesOf(input);
+    totalSamples += samples;
+    addWeighted(sum, input, samples);
+  }
+  Image out = inputs.front().image;
+  for (std::size_t i = 0; i < sum.size(); ++i) out.data()[i] = static_cast<float>(sum[i] / totalSamples);
+  out.metadata.clear();
+  for (const char* key : {"command", "version", "sceneHash"}) keepCommon(inputs, key, out);
+  sumSeconds(inputs, out);
+  out.metadata["samples"] = countText(totalSamples);
+  out.metadata["seed"] = seedList;
+  return out;
+}
+
+int runMerge(const MergeOptions& options) {
+  requireWritable(options.outfile);
+  std::vector<NamedImage> inputs;
+  for (const std::string& file : options.inputs) {
+    LoadedImage loaded = loadLinear(file);
+    if (loaded.format != ImageFormat::Exr) fail(file, "only EXR renders can be merged");
+    inputs.push_back({file, std::move(loaded.image)});
+  }
+  const Image merged = mergeRenders(inputs);
+  writeImage(options.outfile, merged, options.write);
+  std::cout << options.outfile << ": " << inputs.size() << " renders, " << merged.metadata.at("samples")
+            << " samples per pixel\n";
+  return 0;
+}
+
+}  // namespace pbrtmedia
