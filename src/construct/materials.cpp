@@ -170,11 +170,11 @@ Make readMix(Texturable& in) {
       complete = false;
       continue;
     }
-    if (const auto index = NameScope::find(in.scope(), NameScope::Kind::Material, *name)) {
+    if (const auto index = NameScope::find(in.scope(), NameScope::Kind::Materials, *name)) {
       parts[i] = static_cast<std::int32_t>(*index);
       continue;
     }
-    const std::vector<std::string> owned = NameScope::names(in.scope(), NameScope::Kind::Material);
+    const std::vector<std::string> owned = NameScope::names(in.scope(), NameScope::Kind::Materials);
     const std::vector<std::string_view> known(owned.begin(), owned.end());
     in.own().error(ParamKind::String, kNames[i],
                    "unknown material \"" + *name + "\"" + suggestion(*name, known));

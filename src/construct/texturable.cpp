@@ -11,7 +11,7 @@ std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope
                                                 std::string_view name, Range range) {
   constexpr bool kIsFloat = std::is_same_v<T, float>;
   constexpr ParamKind kKind = kIsFloat ? ParamKind::Float : ParamKind::Spectrum;
-  constexpr auto kFlavour = kIsFloat ? NameScope::Kind::FloatTexture : NameScope::Kind::SpectrumTexture;
+  constexpr auto kFlavour = kIsFloat ? NameScope::Kind::FloatTextures : NameScope::Kind::SpectrumTextures;
   if (in.has(ParamKind::Texture, name)) {
     in.has(kKind, name);  // a constant of the same name loses, but it is known
     const std::optional<std::string> texture = in.findTextureName(name);
@@ -20,7 +20,7 @@ std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope
     const std::vector<std::string> owned = NameScope::names(scope, kFlavour);
     const std::vector<std::string_view> known(owned.begin(), owned.end());
     const bool otherFlavour =
-        NameScope::find(scope, kIsFloat ? NameScope::Kind::SpectrumTexture : NameScope::Kind::FloatTexture,
+        NameScope::find(scope, kIsFloat ? NameScope::Kind::SpectrumTextures : NameScope::Kind::FloatTextures,
                         *texture)
             .has_value();
     const std::string what = kIsFloat ? "float" : "spectrum";
