@@ -173,25 +173,27 @@ class Excerpts {
   std::map<std::string, std::optional<LineFinder>> finders_;
 };
 
-/// Edits (insert, delete, replace, swap of neighbours) between two words; letters compare without case at
-/// half the cost of an edit, so the unit is half an edit.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+/// Twice the edits (insert, delete, replace, swap of neighbours) between two words without regard to case,
+/// plus one if the words differ at all: a difference of case alone counts half an edit.
+std::size_t wordDistance(std::string_view a, std::string_view b) {
+  const auto same = [](char x, char y) {
+    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
+  };
   std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) previous[j] = 2 * j;
+  std::iota(previous.begin(), previous.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    current[0] = 2 * i;
+    current[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replace = a[i - 1] == b[j - 1] ? 0 : (lower(a[i - 1]) == lower(b[j - 1]) ? 1 : 2);
-      current[j] = std::min({previous[j] + 2, current[j - 1] + 2, previous[j - 1] + replace});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        current[j] = std::min(current[j], before[j - 2] + 2);
+      const std::size_t replace = same(a[i - 1], b[j - 1]) ? 0 : 1;
+      current[j] = std::min({previous[j] + 1, current[j - 1] + 1, previous[j - 1] + replace});
+      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) {
+        current[j] = std::min(current[j], before[j - 2] + 1);
       }
     }
     std::swap(before, previous);
     std::swap(previous, current);
   }
-  return previous[b.size()];
+  return 2 * previous[b.size()] + (a == b ? 0 : 1);
 }
 
 struct Ranked {
@@ -201,7 +203,7 @@ struct Ranked {
 std::vector<Ranked> rank(std::string_view found, std::span<const std::string_view> known) {
   std::vector<Ranked> ranked;
   for (const std::string_view k : known) {
-    ranked.push_back({editDistance(found.substr(0, kMaxComparedLength), k.substr(0, kMaxComparedLength)), k});
+    ranked.push_back({wordDistance(found.substr(0, kMaxComparedLength), k.substr(0, kMaxComparedLength)), k});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const Ranked& a, const Ranked& b) { return a.distance < b.distance; });
@@ -263,8 +265,8 @@ std::string suggestion(std::string_view found, std::span<const std::string_view>
   if (known.empty()) return {};
   constexpr std::size_t kMost = 8;
   const std::vector<Ranked> ranked = rank(found, known);
-  // Close: a third of the letters may differ, but not all of a short name. Units are half edits.
-  const std::size_t allowed = 2 * std::max<std::size_t>(1, ranked[0].name.size() / 3);
+  // Close: a third of the letters may differ, but not all of a short name.
+  const std::size_t allowed = 2 * std::max<std::size_t>(1, ranked[0].name.size() / 3) + 1;
   std::string text = "; ";
   if (!found.empty() && !ranked[0].name.empty() && ranked[0].distance <= allowed &&
       ranked[0].distance < 2 * std::min(found.size(), ranked[0].name.size())) {

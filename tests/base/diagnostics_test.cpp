@@ -127,7 +127,7 @@ TEST(NearestNames, SortByEditDistance) {
 
 TEST(NearestNames, SuggestionsNameAMisspelling) {
   EXPECT_EQ(suggestion("ratoi", kKnown), "; did you mean \"ratio\"? known: ratio, delta, residual-ratio");
-  EXPECT_EQ(suggestion("RATIO", kKnown).substr(0, 24), "; did you mean \"ratio\"? k");
+  EXPECT_EQ(suggestion("RATIO", kKnown).substr(0, 25), "; did you mean \"ratio\"? k");
   EXPECT_EQ(suggestion("zzz", kKnown).substr(0, 9), "; known: ");
   EXPECT_EQ(suggestion("zzz", {}), "");
   EXPECT_EQ(suggestion("", kKnown).substr(0, 9), "; known: ");

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "scene/number.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "scene/lexer.h"
+
+namespace pbrtmedia {
+namespace {
+
+float fastFloat(const std::string& text, bool& usedFastPath) {
+  const char* p = text.data();
+  Decimal d;
+  float value = 0;
+  usedFastPath =
+      scanDecimal(p, text.data() + text.size(), d) && p == text.data() + text.size() && exactFloat(d, value);
+  if (!usedFastPath) {
+    EXPECT_EQ(parseFloat(text, value), NumberStatus::Ok) << text;
+  }
+  return value;
+}
+
+TEST(Number, FastPathEqualsCorrectRoundingOnRandomDecimals) {
+  std::mt19937_64 random(7);
+  std::size_t fast = 0;
+  constexpr int kCount = 200000;
+  for (int i = 0; i < kCount; ++i) {
+    std::string text = random() % 3 == 0 ? "-" : "";
+    const int before = static_cast<int>(random() % 8), after = static_cast<int>(random() % 10);
+    for (int k = 0; k < before; ++k) text += static_cast<char>('0' + random() % 10);
+    text += '.';
+    for (int k = 0; k <= after; ++k) text += static_cast<char>('0' + random() % 10);
+    if (random() % 4 == 0) text.append("e").append(std::to_string(static_cast<int>(random() % 40) - 20));
+    bool isFast;
+    const float value = fastFloat(text, isFast);
+    fast += isFast;
+    ASSERT_EQ(value, std::strtof(text.c_str(), nullptr)) << text;
+  }
+  EXPECT_GT(fast, kCount / 2);  // else nothing was tested
+}
+
+TEST(Number, HalfWayCasesRoundOnce) {
+  // 1 + 2^-24 is half-way between two floats: it rounds to even, and anything above it up. As doubles, the
+  // second text and the first are equal, so rounding by way of a double would get the second wrong.
+  bool fast;
+  EXPECT_EQ(fastFloat("1.000000059604644775390625", fast), 1.0f);
+  EXPECT_EQ(fastFloat("1.0000000596046447753906250000001", fast), std::nextafter(1.0f, 2.0f));
+  EXPECT_EQ(fastFloat("16777217", fast), 16777216.0f);
+  EXPECT_FALSE(fast);  // 2^24 + 1, exactly half-way
+  EXPECT_EQ(fastFloat("16777219", fast), 16777220.0f);
+}
+
+TEST(Number, TooSmallIsZeroAndTooLargeIsSaid) {
+  float f;
+  EXPECT_EQ(parseFloat("1e-60", f), NumberStatus::Ok);
+  EXPECT_EQ(f, 0.0f);
+  EXPECT_EQ(parseFloat("-1e-400", f), NumberStatus::Ok);
+  EXPECT_TRUE(f == 0.0f && std::signbit(f));
+  EXPECT_EQ(parseFloat("0." + std::string(500, '0') + "1", f), NumberStatus::Ok);
+  EXPECT_EQ(f, 0.0f);
+  EXPECT_EQ(parseFloat("1e39", f), NumberStatus::TooLarge);
+  EXPECT_EQ(parseFloat("1" + std::string(60, '0'), f), NumberStatus::TooLarge);
+  EXPECT_EQ(parseFloat("1e99999999999999999999", f), NumberStatus::TooLarge);
+  EXPECT_EQ(parseFloat("1e-99999999999999999999", f), NumberStatus::Ok);
+  EXPECT_EQ(parseFloat("0e99999999999999999999", f), NumberStatus::Ok);
+  EXPECT_EQ(f, 0.0f);
+  EXPECT_EQ(parseFloat("3.4028235e38", f), NumberStatus::Ok);
+  EXPECT_EQ(f, std::numeric_limits<float>::max());
+  double d;
+  EXPECT_EQ(parseDouble("1e300", d), NumberStatus::Ok);
+  EXPECT_EQ(parseDouble("1e309", d), NumberStatus::TooLarge);
+}
+
+TEST(Number, AcceptsTheUsualFormsAndNothingElse) {
+  float f;
+  for (const char* good : {"1", "+1", "-1", ".5", "5.", "-.5", "1e5", "1E+5", "1.e-5", "007"}) {
+    EXPECT_EQ(parseFloat(good, f), NumberStatus::Ok) << good;
+    EXPECT_EQ(f, std::strtof(good, nullptr)) << good;
+  }
+  for (const char* bad : {"", "-", "+", ".", "e5", "1e", "1e+", "--1", "+-1", "1.5abc", "1,2", "0x10", "inf",
+                          "nan", "-inf", "1.2.3", "1 2"}) {
+    EXPECT_EQ(parseFloat(bad, f), NumberStatus::NotANumber) << bad;
+  }
+}
+
+TEST(Number, LexerReadsRunsAndStopsBeforeAnythingElse) {
+  const std::string text = "1 2.5\n-3e2\t4]5";
+  Lexer lexer(text, 0, false);
+  float out[8] = {};
+  ASSERT_EQ(lexer.readFloats(out, 8), 4u);
+  EXPECT_EQ(out[1], 2.5f);
+  EXPECT_EQ(out[2], -300.0f);
+  const Token close = lexer.next();
+  EXPECT_EQ(close.kind, Token::Kind::Close);
+  EXPECT_EQ(close.line, 2u);
+  EXPECT_EQ(close.column, 7u);
+  EXPECT_EQ(lexer.readFloats(out, 8), 1u);
+  EXPECT_EQ(lexer.next().kind, Token::Kind::End);
+}
+
+TEST(Number, LexerLeavesDoubtfulNumbersToTheSlowPath) {
+  const std::string text = "1 16777217 2";
+  Lexer lexer(text, 0, false);
+  float out[8];
+  EXPECT_EQ(lexer.readFloats(out, 8), 1u);
+  EXPECT_EQ(lexer.next().raw, "16777217");
+  EXPECT_EQ(lexer.readFloats(out, 1), 1u);
+  const std::string ints = "2147483647 2147483648";
+  Lexer other(ints, 0, false);
+  int i[2];
+  EXPECT_EQ(other.readInts(i, 2), 1u);
+  EXPECT_EQ(i[0], 2147483647);
+}
+
+}  // namespace
+}  // namespace pbrtmedia

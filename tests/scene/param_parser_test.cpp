@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "scene/param_parser.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/parse.h"
+#include "support/temporary_folder.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// The parameters of a Film directive.
+struct Read {
+  Parsed parsed;
+  const ParamList& list() { return parsed.scene().film.params; }
+  template <class T>
+  const std::vector<T>& values(ParamKind kind, std::string_view name) {
+    static const std::vector<T> kNothing;
+    const Param* const p = list().find(kind, name);
+    return p ? std::get<std::vector<T>>(p->values) : kNothing;
+  }
+};
+Read read(std::string_view params, bool lenient = false) {
+  return {parse("Film \"image\" " + std::string(params) + "\nWorldBegin WorldEnd", lenient)};
+}
+
+TEST(ParamParser, ReadsEveryKind) {
+  Read r = read(
+      R"("integer i" [1 -2] "float f" [.5 1e-2] "bool b" ["true" "false"] "point2 p2" [1 2 3 4] "vector2 v2" [5 6]
+         "point p" [1 2 3] "point3 q" [4 5 6] "vector v" [7 8 9] "vector3 w" [1 0 0] "normal n" [0 1 0]
+         "string s" ["a b" ""] "texture t" "name")");
+  EXPECT_EQ(r.parsed.messages(), "");
+  EXPECT_EQ(r.values<int>(ParamKind::Integer, "i"), (std::vector<int>{1, -2}));
+  EXPECT_EQ(r.values<float>(ParamKind::Float, "f"), (std::vector<float>{.5f, 1e-2f}));
+  EXPECT_EQ(r.values<std::uint8_t>(ParamKind::Bool, "b"), (std::vector<std::uint8_t>{1, 0}));
+  EXPECT_EQ(r.values<Point2f>(ParamKind::Point2, "p2"), (std::vector<Point2f>{{1, 2}, {3, 4}}));
+  EXPECT_EQ(r.values<Point2f>(ParamKind::Vector2, "v2"), (std::vector<Point2f>{{5, 6}}));
+  EXPECT_EQ(r.values<Point3f>(ParamKind::Point3, "p"), (std::vector<Point3f>{{1, 2, 3}}));
+  EXPECT_EQ(r.values<Point3f>(ParamKind::Point3, "q"), (std::vector<Point3f>{{4, 5, 6}}));
+  EXPECT_EQ(r.values<Point3f>(ParamKind::Vector3, "v"), (std::vector<Point3f>{{7, 8, 9}}));
+  EXPECT_EQ(r.values<Point3f>(ParamKind::Vector3, "w"), (std::vector<Point3f>{{1, 0, 0}}));
+  EXPECT_EQ(r.values<Point3f>(ParamKind::Normal, "n"), (std::vector<Point3f>{{0, 1, 0}}));
+  EXPECT_EQ(r.values<std::string>(ParamKind::String, "s"), (std::vector<std::string>{"a b", ""}));
+  EXPECT_EQ(r.values<std::string>(ParamKind::Texture, "t"), (std::vector<std::string>{"name"}));
+}
+
+void expectNear(Rgb a, Rgb b) {
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 2e-4f);
+}
+
+TEST(ParamParser, ConvertsEverySpectrumForm) {
+  Read r = read(
+      R"("rgb a" [.1 .2 .3 1 2 3] "color b" [4 5 6] "xyz c" [1 0 0] "blackbody d" [5000 2] "spectrum e" [400 1 700 1])");
+  EXPECT_EQ(r.parsed.messages(), "");
+  EXPECT_EQ(r.values<Rgb>(ParamKind::Spectrum, "a"), (std::vector<Rgb>{{.1f, .2f, .3f}, {1, 2, 3}}));
+  EXPECT_EQ(r.values<Rgb>(ParamKind::Spectrum, "b"), (std::vector<Rgb>{{4, 5, 6}}));
+  expectNear(r.values<Rgb>(ParamKind::Spectrum, "c").at(0), {3.240479f, -0.969256f, 0.055648f});
+  expectNear(r.values<Rgb>(ParamKind::Spectrum, "d").at(0), 2 * Rgb(1.19001f, 0.94206f, 0.74794f));
+  ASSERT_EQ(r.values<Rgb>(ParamKind::Spectrum, "e").size(), 1u);
+  expectNear(r.values<Rgb>(ParamKind::Spectrum, "e").at(0), {1.20233f, 0.94622f, 0.90734f});
+}
+
+TEST(ParamParser, ReadsSpectrumFiles) {
+  const TemporaryFolder folder;
+  folder.write("one.spd", "# constant\n400 1\n700 1\n");
+  Diagnostics d;
+  const auto scenes =
+      parseText("Film \"image\" \"spectrum L\" [\"one.spd\" \"one.spd\"]\nWorldBegin WorldEnd", "t.pbrt",
+                folder.path(), d);
+  EXPECT_EQ(d.format(), "");
+  const auto& colours =
+      std::get<std::vector<Rgb>>(scenes.at(0).film.params.find(ParamKind::Spectrum, "L")->values);
+  ASSERT_EQ(colours.size(), 2u);
+  expectNear(colours[1], {1.20233f, 0.94622f, 0.90734f});
+}
+
+TEST(ParamParser, NamesAMissingOrBrokenSpectrumFile) {
+  const TemporaryFolder folder;
+  const std::string bad = folder.write("bad.spd", "400 1\n500 x\n").string();
+  Diagnostics d;
+  parseText("Film \"image\" \"spectrum L\" \"none.spd\"\n\"spectrum M\" \"bad.spd\"\nWorldBegin WorldEnd",
+            "t.pbrt", folder.path(), d);
+  const std::string out = d.format();
+  EXPECT_NE(out.find("t.pbrt:1:27: error: parameter \"spectrum L\": there is no file \""), std::string::npos)
+      << out;
+  EXPECT_NE(out.find(bad + ":2:5: error: "), std::string::npos) << out;
+  EXPECT_NE(out.find("t.pbrt:2:14: note: the file is named here"), std::string::npos) << out;
+}
+
+TEST(ParamParser, OneValueNeedsNoBrackets) {
+  Read r = read(R"("float f" 3 "string s" "x" "integer i" 7 "bool b" "true")");
+  EXPECT_EQ(r.parsed.messages(), "");
+  EXPECT_EQ(r.values<float>(ParamKind::Float, "f"), (std::vector<float>{3}));
+  EXPECT_EQ(r.values<int>(ParamKind::Integer, "i"), (std::vector<int>{7}));
+  EXPECT_EQ(r.values<std::string>(ParamKind::String, "s"), (std::vector<std::string>{"x"}));
+}
+
+TEST(ParamParser, EmptyListsParse) {
+  Read r = read(R"("float f" [] "string s" [ ] "point p" [] "rgb c" [])");
+  EXPECT_EQ(r.parsed.messages(), "");
+  EXPECT_EQ(r.list().size(), 4u);
+  EXPECT_EQ(r.list().find(ParamKind::Point3, "p")->size(), 0u);
+  EXPECT_EQ(r.list().find(ParamKind::String, "s")->size(), 0u);
+}
+
+TEST(ParamParser, BlanksInADeclarationDoNotMatter) {
+  Read r = read("\" \tfloat \t  f  \" 3");
+  EXPECT_EQ(r.parsed.messages(), "");
+  EXPECT_EQ(r.values<float>(ParamKind::Float, "f"), (std::vector<float>{3}));
+}
+
+TEST(ParamParser, OneNameMayStandInSeveralKinds) {
+  Read r = read(R"("float Kd" 1 "rgb Kd" [1 2 3] "texture Kd" "t")");
+  EXPECT_EQ(r.parsed.messages(), "");
+  EXPECT_EQ(r.list().size(), 3u);
+}
+
+TEST(ParamParser, TheLastOfTwoEntriesCountsAndTheRepeatIsSaid) {
+  Read r = read("\"rgb L\" [1 1 1]\n\"xyz L\" [0 0 0]");
+  EXPECT_EQ(r.list().size(), 1u);
+  EXPECT_EQ(r.values<Rgb>(ParamKind::Spectrum, "L").at(0), Rgb(0));
+  EXPECT_NE(r.parsed.messages().find("t.pbrt:2:1: warning: parameter \"xyz L\": given before"),
+            std::string::npos);
+  EXPECT_FALSE(r.parsed.diagnostics.hasErrors());
+}
+
+TEST(ParamParser, EveryEntryKnowsItsPlaces) {
+  Read r = read("\n \"point P\" [1 2 3\n  4 5 6]");
+  const Param& p = *r.list().find(ParamKind::Point3, "P");
+  EXPECT_EQ(p.declaredAt.toString(), "t.pbrt:2:2");
+  EXPECT_EQ(p.declaredAt.length, 9u);
+  EXPECT_EQ(p.valuesAt.toString(), "t.pbrt:2:13");
+  EXPECT_EQ(p.locationOf(1).toString(), "t.pbrt:3:3");
+  EXPECT_TRUE(p.hasLocationOf(1));
+  EXPECT_FALSE(p.hasLocationOf(100));
+  EXPECT_EQ(p.locationOf(100).toString(), "t.pbrt:2:13");
+}
+
+TEST(ParamParser, LargeArraysAreExactAcrossBlocksCommentsAndLines) {
+  // Longer than a block, with comments, line ends and numbers of the slow path in between.
+  std::string text = "\"float f\" [\n\"integer i\" [";
+  std::vector<float> floats;
+  std::vector<int> ints;
+  std::string f = "\"float f\" [", i = "\"integer i\" [", p = "\"point P\" [";
+  for (int k = 0; k < 20001; ++k) {
+    f += std::to_string(k) + ".25" + (k % 7 == 0 ? " # note 5 6\n" : " ");
+    floats.push_back(static_cast<float>(k) + .25f);
+    i += (k % 5 == 0 ? std::to_string(k) + ".0" : std::to_string(-k)) + (k % 11 == 0 ? "\r\n" : "\t");
+    ints.push_back(k % 5 == 0 ? k : -k);
+    p += std::to_string(k) + " 1e1 16777217 ";
+  }
+  Read r = read(f + "] " + i + "] " + p + "]");
+  EXPECT_EQ(r.parsed.messages(), "");
+  EXPECT_EQ(r.values<float>(ParamKind::Float, "f"), floats);
+  EXPECT_EQ(r.values<int>(ParamKind::Integer, "i"), ints);
+  const auto& points = r.values<Point3f>(ParamKind::Point3, "P");
+  ASSERT_EQ(points.size(), 20001u);
+  EXPECT_EQ(points[20000], Point3f(20000, 10, 16777216));
+}
+
+TEST(ParamParser, AnErrorFarIntoALargeArrayHasItsExactPlace) {
+  std::string text = "Film \"image\" \"float density\" [\n";
+  for (int line = 0; line < 3000; ++line) text += line == 2500 ? "0 1 0.5x 1\n" : "0 1 0.5 1\n";
+  const Parsed p = parse(text + "]\nWorldBegin WorldEnd");
+  EXPECT_EQ(p.messages(),
+            "t.pbrt:2502:5: error: parameter \"float density\": found 0.5x, expected a number\n  0 1 0.5x 1\n"
+            "      ^~~~\n");
+}
+
+TEST(ParamParser, WholeNumbersInAnyFormAreIntegers) {
+  Read r = read(R"("integer i" [16.0 1e3 -2147483648 2147483647 +4])");
+  EXPECT_EQ(r.parsed.messages(), "");
+  EXPECT_EQ(r.values<int>(ParamKind::Integer, "i"),
+            (std::vector<int>{16, 1000, -2147483647 - 1, 2147483647, 4}));
+}
+
+TEST(ParamParser, LenientDoesWhatTheReferenceDoes) {
+  Read r = read(R"("integer i" [1.9 -1.9] "bool b" "yes" "point P" [1 2 3 4] "float f x" 2)", true);
+  EXPECT_FALSE(r.parsed.diagnostics.hasErrors());
+  EXPECT_EQ(r.values<int>(ParamKind::Integer, "i"), (std::vector<int>{1, -1}));
+  EXPECT_EQ(r.values<std::uint8_t>(ParamKind::Bool, "b"), (std::vector<std::uint8_t>{0}));
+  EXPECT_EQ(r.values<Point3f>(ParamKind::Point3, "P"), (std::vector<Point3f>{{1, 2, 3}}));
+  EXPECT_EQ(r.values<float>(ParamKind::Float, "f"), (std::vector<float>{2}));
+  EXPECT_EQ(r.parsed.diagnostics.all().size(), 5u);
+}
+
+TEST(ParamParser, ADroppedParameterDoesNotDisturbTheNext) {
+  Read r =
+      read(R"("foo x" [1 2 3] "foo y" "s" "float bad" ["a" "b"] "string worse" [1 2] "float half" [1 "a" 2]
+                  "float open" [1 2 "float good" 3)");
+  EXPECT_EQ(r.parsed.diagnostics.errorCount(), 6u) << r.parsed.messages();
+  EXPECT_EQ(r.list().size(), 1u);
+  EXPECT_EQ(r.values<float>(ParamKind::Float, "good"), (std::vector<float>{3}));
+}
+
+TEST(ParamParser, TooManyParametersAreRefused) {
+  std::string text;
+  for (int i = 0; i < 5000; ++i) text += "\"float a" + std::to_string(i) + "\" 1\n";
+  const Read r = read(text);
+  EXPECT_NE(r.parsed.messages().find("t.pbrt:4097:1: error: more than 4096 parameters"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pbrtmedia
