@@ -28,7 +28,7 @@ float groupValue(int dimension, std::uint64_t index, std::uint64_t count, std::u
 
 HaltonSampler::HaltonSampler(const Params& params)
     : Sampler(checkedCount("halton", "pixelsamples", params.pixelSamples, 1), params.seed),
-      bits_(indexBits(static_cast<std::uint64_t>(samplesPerPixel()))) {
+      count_(static_cast<std::uint32_t>(samplesPerPixel())) {
   pinsPixelCentre_ = params.samplePixelCentre;
 }
 
@@ -44,23 +44,22 @@ void HaltonSampler::start(Point2i pixel, std::int64_t index) {
 void HaltonSampler::openGroup() {
   groupKey_ = subKey(keyOfPixel_, ++groups_);
   if (index_ >> 32) groupKey_ = hashCombine(groupKey_, index_ >> 32);
-  groupIndex_ = owenShuffle(static_cast<std::uint32_t>(index_), bits_, groupKey_);
+  groupIndex_ = prefixShuffle(static_cast<std::uint32_t>(index_), count_, groupKey_);
   next_ = 0;
 }
 
 float HaltonSampler::get1D() {
   if (next_ == kGroupDimensions) openGroup();
   const int dimension = next_++;
-  return groupValue(dimension, groupIndex_, std::uint64_t{1} << bits_,
+  return groupValue(dimension, groupIndex_, count_,
                     subKey(groupKey_, static_cast<std::uint64_t>(dimension) + 1));
 }
 
 Point2f HaltonSampler::get2D() {
   openGroup();
   next_ = 2;
-  const std::uint64_t count = std::uint64_t{1} << bits_;
-  return {groupValue(0, groupIndex_, count, subKey(groupKey_, 1)),
-          groupValue(1, groupIndex_, count, subKey(groupKey_, 2))};
+  return {groupValue(0, groupIndex_, count_, subKey(groupKey_, 1)),
+          groupValue(1, groupIndex_, count_, subKey(groupKey_, 2))};
 }
 
 void HaltonSampler::get2DArray(std::span<Point2f> out) {

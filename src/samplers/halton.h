@@ -29,7 +29,7 @@ class HaltonSampler final : public Sampler {
  private:
   void openGroup();
 
-  int bits_;  ///< of indices below samplesPerPixel
+  std::uint32_t count_;  ///< samplesPerPixel
   std::uint64_t keyOfPixel_ = 0, index_ = 0;
   std::uint64_t groupKey_ = 0;
   std::uint32_t groupIndex_ = 0;

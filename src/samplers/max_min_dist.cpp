@@ -33,9 +33,9 @@ Point2f latticePoint(std::uint64_t index, int bits, std::uint32_t multiplier, st
 MaxMinDistSampler::MaxMinDistSampler(const Params& params)
     : Sampler(roundUpToPowerOfTwo(checkedCount("maxmindist", "pixelsamples", params.pixelSamples, 1)),
               params.seed),
-      bits_(indexBits(static_cast<std::uint64_t>(samplesPerPixel()))),
+      count_(static_cast<std::uint32_t>(samplesPerPixel())),
       dimensions_(static_cast<int>(checkedCount("maxmindist", "dimensions", params.dimensions, 0))),
-      latticeBits_(std::min(bits_, kMaxLatticeBits)),
+      latticeBits_(std::min(indexBits(count_), kMaxLatticeBits)),
       multiplier_(maxMinDistMultiplier(1u << latticeBits_)) {}
 
 std::unique_ptr<Sampler> MaxMinDistSampler::clone() const {
@@ -44,13 +44,13 @@ std::unique_ptr<Sampler> MaxMinDistSampler::clone() const {
 
 void MaxMinDistSampler::start(Point2i pixel, std::int64_t index) { slots_.start(seed(), pixel, index); }
 
-float MaxMinDistSampler::get1D() { return slots_.next1D(bits_, dimensions_); }
+float MaxMinDistSampler::get1D() { return slots_.next1D(count_, dimensions_); }
 
 Point2f MaxMinDistSampler::get2D() {
-  if (slots_.used2D() > 0 || dimensions_ == 0) return slots_.next2D(bits_, dimensions_);
+  if (slots_.used2D() > 0 || dimensions_ == 0) return slots_.next2D(count_, dimensions_);
   return latticePoint(slots_.index(), latticeBits_, multiplier_, slots_.take2D());
 }
 
-void MaxMinDistSampler::get2DArray(std::span<Point2f> out) { slots_.next2DArray(bits_, out); }
+void MaxMinDistSampler::get2DArray(std::span<Point2f> out) { slots_.next2DArray(count_, out); }
 
 }  // namespace pbrtmedia

@@ -30,7 +30,7 @@ class MaxMinDistSampler final : public Sampler {
   void get2DArray(std::span<Point2f> out) override;
 
  private:
-  int bits_;  ///< log2 of samplesPerPixel
+  std::uint32_t count_;  ///< samplesPerPixel
   int dimensions_;
   int latticeBits_;           ///< log2 of the lattice's points
   std::uint32_t multiplier_;  ///< point j is (j, multiplier * j mod points) / points

@@ -12,7 +12,7 @@ constexpr int kGroupDimensions = 4;
 SobolSampler::SobolSampler(const Params& params)
     : Sampler(roundUpToPowerOfTwo(checkedCount("sobol", "pixelsamples", params.pixelSamples, 1)),
               params.seed),
-      bits_(indexBits(static_cast<std::uint64_t>(samplesPerPixel()))) {}
+      count_(static_cast<std::uint32_t>(samplesPerPixel())) {}
 
 std::unique_ptr<Sampler> SobolSampler::clone() const { return std::make_unique<SobolSampler>(*this); }
 
@@ -26,7 +26,7 @@ void SobolSampler::start(Point2i pixel, std::int64_t index) {
 void SobolSampler::openGroup() {
   groupKey_ = subKey(keyOfPixel_, ++groups_);
   if (index_ >> 32) groupKey_ = hashCombine(groupKey_, index_ >> 32);
-  groupIndex_ = owenShuffle(static_cast<std::uint32_t>(index_), bits_, groupKey_);
+  groupIndex_ = prefixShuffle(static_cast<std::uint32_t>(index_), count_, groupKey_);
   next_ = 0;
 }
 
@@ -48,7 +48,7 @@ void SobolSampler::get2DArray(std::span<Point2f> out) {
   const std::uint64_t key = subKey(keyOfPixel_, ++groups_), first = index_ * out.size();
   next_ = kGroupDimensions;
   const int all = indexBits(static_cast<std::uint64_t>(samplesPerPixel()) * out.size());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = scrambledZeroTwo(first + i, all, key);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = scrambledZeroTwoRun(first + i, all, key);
 }
 
 }  // namespace pbrtmedia

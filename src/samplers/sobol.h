@@ -7,7 +7,7 @@ namespace pbrtmedia {
 
 /// Sampler "sobol": the first four dimensions of Sobol's sequence with nested uniform (Owen) scrambling,
 /// padded. A 2D request opens a group with the first two dimensions, which are a (0, 2)-sequence in base 2;
-/// single numbers after it take the third and fourth. Every group has its own Owen-shuffled index and
+/// single numbers after it take the third and fourth. Every group has its own shuffled index and
 /// scrambling, per pixel (Burley 2020, "Practical Hash-based Owen Scrambling", JCGT 9(4)). So every pair is
 /// as good as the best one, and there is no limit to the dimensions.
 class SobolSampler final : public Sampler {
@@ -28,7 +28,7 @@ class SobolSampler final : public Sampler {
  private:
   void openGroup();
 
-  int bits_;  ///< log2 of samplesPerPixel
+  std::uint32_t count_;  ///< samplesPerPixel
   std::uint64_t keyOfPixel_ = 0, index_ = 0;
   std::uint64_t groupKey_ = 0;
   std::uint32_t groupIndex_ = 0;

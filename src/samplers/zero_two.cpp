@@ -9,17 +9,17 @@ namespace pbrtmedia {
 ZeroTwoSampler::ZeroTwoSampler(const Params& params)
     : Sampler(roundUpToPowerOfTwo(checkedCount("02sequence", "pixelsamples", params.pixelSamples, 1)),
               params.seed),
-      bits_(indexBits(static_cast<std::uint64_t>(samplesPerPixel()))),
+      count_(static_cast<std::uint32_t>(samplesPerPixel())),
       dimensions_(static_cast<int>(checkedCount("02sequence", "dimensions", params.dimensions, 0))) {}
 
 std::unique_ptr<Sampler> ZeroTwoSampler::clone() const { return std::make_unique<ZeroTwoSampler>(*this); }
 
 void ZeroTwoSampler::start(Point2i pixel, std::int64_t index) { slots_.start(seed(), pixel, index); }
 
-float ZeroTwoSampler::get1D() { return slots_.next1D(bits_, dimensions_); }
+float ZeroTwoSampler::get1D() { return slots_.next1D(count_, dimensions_); }
 
-Point2f ZeroTwoSampler::get2D() { return slots_.next2D(bits_, dimensions_); }
+Point2f ZeroTwoSampler::get2D() { return slots_.next2D(count_, dimensions_); }
 
-void ZeroTwoSampler::get2DArray(std::span<Point2f> out) { slots_.next2DArray(bits_, out); }
+void ZeroTwoSampler::get2DArray(std::span<Point2f> out) { slots_.next2DArray(count_, out); }
 
 }  // namespace pbrtmedia

@@ -7,7 +7,7 @@
 namespace pbrtmedia {
 
 /// Sampler "02sequence", alias "lowdiscrepancy": in every slot the van der Corput sequence (1D) or Sobol's
-/// (0, 2)-sequence (2D), each with its own Owen-shuffled index and Owen scrambling per pixel.
+/// (0, 2)-sequence (2D), each with its own shuffled index and Owen scrambling per pixel.
 class ZeroTwoSampler final : public Sampler {
  public:
   struct Params {
@@ -25,7 +25,7 @@ class ZeroTwoSampler final : public Sampler {
   void get2DArray(std::span<Point2f> out) override;
 
  private:
-  int bits_;  ///< log2 of samplesPerPixel
+  std::uint32_t count_;  ///< samplesPerPixel
   int dimensions_;
   ZeroTwoSlots slots_;
 };

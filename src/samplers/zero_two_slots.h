@@ -10,7 +10,7 @@
 namespace pbrtmedia {
 
 /// The stream of slots of one sample in which each slot is its own scrambled base-2 sequence, and slots past
-/// `dimensions` (1D and 2D counted apart) are random. `bits`: log2 of the samples that are shuffled together.
+/// `dimensions` (1D and 2D counted apart) are random. `count`: samples per pixel, a power of two.
 class ZeroTwoSlots {
  public:
   void start(std::uint64_t seed, Point2i pixel, std::int64_t index) {
@@ -22,23 +22,23 @@ class ZeroTwoSlots {
   std::uint64_t index() const { return index_; }
   int used2D() const { return used2D_; }
 
-  float next1D(int bits, int dimensions) {
+  float next1D(std::uint32_t count, int dimensions) {
     const std::uint64_t key = nextKey();
     if (used1D_ >= dimensions) return keyToUnit(hashCombine(key, index_));
     ++used1D_;
-    return scrambledVanDerCorput(index_, bits, key);
+    return scrambledVanDerCorput(index_, count, key);
   }
-  Point2f next2D(int bits, int dimensions) {
+  Point2f next2D(std::uint32_t count, int dimensions) {
     const std::uint64_t key = nextKey();
     if (used2D_ >= dimensions) return keyToSquare(hashCombine(key, index_));
     ++used2D_;
-    return scrambledZeroTwo(index_, bits, key);
+    return scrambledZeroTwo(index_, count, key);
   }
   /// Always well distributed: the points of all samples together are one sequence.
-  void next2DArray(int bits, std::span<Point2f> out) {
+  void next2DArray(std::uint32_t count, std::span<Point2f> out) {
     const std::uint64_t key = nextKey(), first = index_ * out.size();
-    const int all = indexBits((std::uint64_t{1} << bits) * out.size());
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = scrambledZeroTwo(first + i, all, key);
+    const int all = indexBits(std::uint64_t{count} * out.size());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = scrambledZeroTwoRun(first + i, all, key);
   }
   /// Takes a 2D slot that the caller fills himself; its key.
   std::uint64_t take2D() {
