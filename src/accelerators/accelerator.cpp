@@ -176,7 +176,7 @@ void Accelerator::build() {
 std::optional<RayHit> Accelerator::intersect(const Ray& ray, float tMin, const Exclusions& exclusions) const {
   if (!impl_->scene || !isFinite(ray.o) || !isFinite(ray.d)) return std::nullopt;
   Query query(ray, tMin, exclusions, /*shadowRay=*/false);
-  query.run(impl_->scene);
+  if (!query.crossesNeighbourAtStart(*impl_)) query.run(impl_->scene);
   if (!query.best().id.isValid()) return std::nullopt;
   return query.best();
 }
@@ -184,7 +184,7 @@ std::optional<RayHit> Accelerator::intersect(const Ray& ray, float tMin, const E
 bool Accelerator::occluded(const Ray& ray, float tMin, const Exclusions& exclusions) const {
   if (!impl_->scene || !isFinite(ray.o) || !isFinite(ray.d)) return false;
   Query query(ray, tMin, exclusions, /*shadowRay=*/true);
-  query.run(impl_->scene);
+  if (!query.crossesNeighbourAtStart(*impl_)) query.run(impl_->scene);
   return query.best().id.isValid();
 }
 

@@ -17,8 +17,10 @@ bool precedes(const PrimitiveId& a, const PrimitiveId& b) {
 /// `TrianglePair::deniesHit`. Only a saving of time: the rule is right for any distance.
 constexpr double kNearAnEnd = 1e-2;
 /// Relative to the coordinates: how far apart along the ray two triangles are hit when it goes through a
-/// common edge, within Embree's tolerance of 1 ulp across the edge.
-constexpr double kSameCrossing = 1e-5;
+/// common edge, and how far from it, within Embree's tolerance of an ulp.
+constexpr double kSameCrossing = 1e-5, kOnEdge = 1e-6;
+/// Relative to the coordinates: rounding of a point and of its way into the space of an instance.
+constexpr double kPointRounding = 4 * 0x1p-24;
 
 }  // namespace
 
@@ -61,6 +63,7 @@ bool Query::isExcluded(const PrimitiveId& id) const {
 
 bool Query::isLeftOut(const GeometryRecord& record, const RayHit& hit, Vec3d direction) const {
   if (isExcluded(hit.id)) return true;
+  bool isAdjacent = false;
   for (const Exclusions::Entry& entry : exclusions_.entries()) {
     if (entry.id.instance != hit.id.instance) continue;
     const GeometryRecord& other = *record.owner->records[entry.id.geometry];
@@ -69,9 +72,61 @@ bool Query::isLeftOut(const GeometryRecord& record, const RayHit& hit, Vec3d dir
     const double between = std::abs(double{hit.t} - entry.t) * maxComponent(abs(direction));
     if (entry.t <= 0 || entry.t >= ray_.tMax) {
       if (between <= kNearAnEnd * pair.scale && pair.deniesHit(entry.t > 0)) return true;
-    } else if (between <= kSameCrossing * pair.scale && pair.isOneCrossing(hit.uv)) {
+      if (onlyAdjacent_ && pair.isAdjacent()) isAdjacent = true;
+    } else if (between <= kSameCrossing * pair.scale &&
+               pair.isOneCrossing(hit.uv, kOnEdge * (pair.scale + hit.t * length(direction)))) {
       return true;
     }
+  }
+  return onlyAdjacent_ && !isAdjacent;
+}
+
+std::optional<Query::BorderStart> Query::borderStart(const Accelerator::Impl& world,
+                                                     const Exclusions::Entry& entry) const {
+  const GeometryRecord* instance =
+      entry.id.instance == PrimitiveId::kNone ? nullptr : world.records[entry.id.instance].get();
+  const Accelerator::Impl& owner = instance ? *instance->object : world;
+  const GeometryRecord& record = *owner.records[entry.id.geometry];
+  if (!record.isTriangles()) return std::nullopt;
+  auto corners = record.corners(entry.id.primitive);
+  if (instance) {
+    const Transform worldFromObject = instance->worldFromObject.at(ray_.time);
+    for (Vec3d& corner : corners) corner = worldFromObject.point(corner);
+  }
+  const Vec3d o(ray_.o);
+  const double rounding = kPointRounding * std::max(maxComponent(abs(o)), maxComponent(abs(corners[0])));
+  const Vec3d normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  Vec3d inward{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d edge = corners[(i + 1) % 3] - corners[i], across = cross(normal, edge);
+    const double size = length(across);
+    if (size > 0 && dot(o - corners[i], across) <= rounding * size) inward += across / size;
+  }
+  if (inward == Vec3d{}) return std::nullopt;
+  // Into the triangle, and a little to the side to which the ray goes.
+  const Vec3d unit = normalize(normal), inPlane = o - dot(o - corners[0], unit) * unit;
+  const double side = dot(unit, Vec3d(ray_.d)) < 0 ? -1 : 1;
+  return BorderStart{Point3f(inPlane + 2 * rounding * (inward + 0.25 * side * unit)), rounding};
+}
+
+bool Query::crossesNeighbourAtStart(const Accelerator::Impl& world) {
+  if (tMin_ > 0) return false;
+  for (const Exclusions::Entry& entry : exclusions_.entries()) {
+    if (entry.t > 0) continue;
+    const auto start = borderStart(world, entry);
+    if (!start) continue;
+    // Far enough for all but the most grazing neighbours; those are met by the ray itself, or missed.
+    const float reach = static_cast<float>(256 * start->rounding / length(Vec3d(ray_.d)));
+    const Exclusions onlyStart(entry.id, 0);
+    Query query({.o = start->inside, .d = ray_.d, .tMax = std::min(reach, ray_.tMax), .time = ray_.time}, 0,
+                onlyStart, shadowRay_);
+    query.onlyAdjacent_ = true;
+    query.run(world.scene);
+    if (!query.best_.id.isValid() || isExcluded(query.best_.id)) continue;
+    best_ = query.best_;
+    const Vec3d d(ray_.d), shift = Vec3d(start->inside) - Vec3d(ray_.o);
+    best_.t = std::max(0.0f, static_cast<float>(best_.t + dot(shift, d) / dot(d, d)));
+    return true;
   }
   return false;
 }

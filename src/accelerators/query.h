@@ -20,6 +20,10 @@ class Query {
   void run(RTCScene scene);
   const RayHit& best() const { return best_; }
 
+  /// A ray that starts at a rounded point of an excluded triangle may start behind a neighbour that it should
+  /// cross at once. True when that happened; `best()` is then the neighbour.
+  bool crossesNeighbourAtStart(const Accelerator::Impl& world);
+
   /// Registers the callbacks of user geometry and animated instances.
   static void setUserCallbacks(RTCGeometry geometry);
   static void setInstanceCallbacks(RTCGeometry geometry);
@@ -42,6 +46,13 @@ class Query {
   bool take(const GeometryRecord& record, const RayHit& hit);
   bool isExcluded(const PrimitiveId& id) const;
   bool isLeftOut(const GeometryRecord& record, const RayHit& hit, Vec3d direction) const;
+  /// A point safely inside the triangle of `entry`, when the ray starts within rounding of its border.
+  struct BorderStart {
+    Point3f inside;   ///< world space
+    double rounding;  ///< of the start, world length
+  };
+  std::optional<BorderStart> borderStart(const Accelerator::Impl& world,
+                                         const Exclusions::Entry& entry) const;
   bool hitUser(const GeometryRecord& record, const RTCRay& ray);
   bool hitInstance(const GeometryRecord& record);
 
@@ -49,6 +60,7 @@ class Query {
   float tMin_;
   const Exclusions& exclusions_;
   bool shadowRay_;
+  bool onlyAdjacent_ = false;  ///< only neighbours of excluded triangles are hit
   std::uint32_t animatedInstance_ = PrimitiveId::kNone;
   RayHit best_;
   Context context_;

@@ -8,10 +8,25 @@ namespace {
 
 /// Relative: corners nearer to a plane than this lie in it. Double rounding, far below float spacing.
 constexpr double kCoplanar = 1e-12;
-/// Barycentric weight below which a hit is on an edge: several times Embree's tolerance of 1 ulp.
-constexpr double kOnEdge = 2e-6;
-
 Vec3d faceVector(const std::array<Vec3d, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+
+/// Extent of a triangle's corners along the normal of a plane, 0 included; rounding is taken away.
+struct Sides {
+  double low = 0, high = 0;
+  int inPlane = 0;  ///< corners
+  Sides(const std::array<Vec3d, 3>& corners, Vec3d pointOfPlane, Vec3d normal, double scale) {
+    const double tolerance = kCoplanar * scale * length(normal);
+    for (const Vec3d& corner : corners) {
+      const double side = dot(normal, corner - pointOfPlane);
+      if (std::abs(side) <= tolerance) {
+        ++inPlane;
+      } else {
+        low = std::min(low, side);
+        high = std::max(high, side);
+      }
+    }
+  }
+};
 
 }  // namespace
 
@@ -24,20 +39,19 @@ TrianglePair::TrianglePair(const std::array<Vec3d, 3>& excludedCorners,
 }
 
 bool TrianglePair::deniesHit(bool isEnd) const {
-  const Vec3d normal = faceVector(hit);
-  const double tolerance = kCoplanar * scale * length(normal);
-  double low = 0, high = 0;
-  for (const Vec3d& corner : excluded) {
-    const double side = dot(normal, corner - hit[0]);
-    low = std::min(low, side);
-    high = std::max(high, side);
-  }
-  const bool isAbove = low >= -tolerance, isBelow = high <= tolerance;
-  const double leaving = isEnd ? -dot(normal, direction) : dot(normal, direction);
-  return (isAbove && isBelow) || (isAbove && leaving >= 0) || (isBelow && leaving <= 0);
+  const Vec3d heading = isEnd ? -direction : direction;  // away from the excluded triangle
+  const Vec3d hitNormal = faceVector(hit), excludedNormal = faceVector(excluded);
+  const Sides start(excluded, hit[0], hitNormal, scale);
+  const double across = dot(hitNormal, heading);
+  if ((start.low == 0 && across >= 0) || (start.high == 0 && across <= 0)) return true;
+  const Sides goal(hit, excluded[0], excludedNormal, scale);
+  const double leaving = dot(excludedNormal, heading);
+  return (goal.high == 0 && leaving >= 0) || (goal.low == 0 && leaving <= 0);
 }
 
-bool TrianglePair::isOneCrossing(Point2f uv) const {
+bool TrianglePair::isAdjacent() const { return Sides(excluded, hit[0], faceVector(hit), scale).inPlane >= 2; }
+
+bool TrianglePair::isOneCrossing(Point2f uv, double rounding) const {
   const std::array<double, 3> weights{1.0 - uv.x - uv.y, uv.x, uv.y};
   const auto isShared = [](const std::array<Vec3d, 3>& corners, Vec3d p) {
     return std::ranges::find(corners, p) != corners.end();
@@ -50,7 +64,8 @@ bool TrianglePair::isOneCrossing(Point2f uv) const {
     if (shared[i]) ++count;
     if (!shared[i]) weightElsewhere += std::max(0.0, weights[i]);
   }
-  if (count == 0 || count == 3 || weightElsewhere > kOnEdge) return false;
+  const double size = std::sqrt(std::max(lengthSquared(hit[1] - hit[0]), lengthSquared(hit[2] - hit[0])));
+  if (count == 0 || count == 3 || weightElsewhere * size > rounding) return false;
   if (count == 1) {  // a corner: same facing, so the same passage
     return dot(faceVector(excluded), direction) * dot(faceVector(hit), direction) > 0;
   }

@@ -10,9 +10,9 @@ namespace pbrtmedia {
 class Sphere final : public RevolvedQuadric {
  public:
   struct Params {
-    float radius = 1;                 ///< > 0
-    std::optional<float> zmin, zmax;  ///< default -radius, radius; sorted and clamped to ±radius
-    float phimax = 360;               ///< degrees, clamped to [0, 360]
+    float radius = 1;                           ///< > 0
+    std::optional<float> zmin = {}, zmax = {};  ///< default -radius, radius; sorted and clamped to ±radius
+    float phimax = 360;                         ///< degrees, clamped to [0, 360]
   };
   /// Throws std::invalid_argument, naming parameter and value, when nothing of the surface would be left.
   Sphere(const Params& params, const ShapePlacement& placement);
