@@ -40,7 +40,10 @@ void show(const Diagnostics& diagnostics, bool quiet) {
 
 std::string sceneNames(const Options& options) {
   std::string names;
-  for (const auto& scene : options.scenes) names += (names.empty() ? "" : " ") + scene.string();
+  for (const auto& scene : options.scenes) {
+    if (!names.empty()) names += ' ';
+    names += scene.string();
+  }
   return names;
 }
 

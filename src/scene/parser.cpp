@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "base/hash.h"
-#include "scene/scene_builder.h"
+#include "scene/description_builder.h"
 
 namespace pbrtmedia {
 namespace {
@@ -102,7 +102,7 @@ class Parser {
   TokenStream tokens_;
   ParamParser params_;
   StatementReader statements_;
-  SceneBuilder builder_;
+  DescriptionBuilder builder_;
   std::size_t errorLimit_, includes_ = 0;
   bool stopped_ = false;
 };

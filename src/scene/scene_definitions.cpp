@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// The part of SceneBuilder that makes media, textures, materials, lights, shapes and the camera.
+// The part of DescriptionBuilder that makes media, textures, materials, lights, shapes and the camera.
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "scene/messages.h"
-#include "scene/scene_builder.h"
+#include "scene/description_builder.h"
 
 namespace pbrtmedia {
-void SceneBuilder::applyDefinition(Statement& s) {
+void DescriptionBuilder::applyDefinition(Statement& s) {
   switch (s.info->id) {
     case Directive::MakeNamedMedium:
       return makeMedium(s);
@@ -34,21 +34,21 @@ void SceneBuilder::applyDefinition(Statement& s) {
   }
 }
 
-void SceneBuilder::camera(Statement& s) {
+void DescriptionBuilder::camera(Statement& s) {
   const TransformPair toWorld{state_.ctm->start.inverse(), state_.ctm->end.inverse()};
   s.moveInto(scene_.camera);
   scene_.camera.worldFromCamera = std::make_shared<const TransformPair>(toWorld);
   coordinateSystems_["camera"] = scene_.camera.worldFromCamera;
 }
 
-void SceneBuilder::warnIfAnimated(const Statement& s) {
+void DescriptionBuilder::warnIfAnimated(const Statement& s) {
   if (!state_.ctm->isAnimated()) return;
   diagnostics_.warning(s.at,
                        std::string(s.info->name) + " does not move; the transformation at the start is used");
 }
 
 /// MakeNamedX: the type is a parameter.
-bool SceneBuilder::typeFromParameter(Statement& s, Entity& entity) {
+bool DescriptionBuilder::typeFromParameter(Statement& s, Entity& entity) {
   const std::string name = s.strings[0].text;
   s.moveInto(entity);
   const Param* const type = std::as_const(entity.params).find(ParamKind::String, "type");
@@ -66,7 +66,7 @@ bool SceneBuilder::typeFromParameter(Statement& s, Entity& entity) {
   return true;
 }
 
-void SceneBuilder::makeMedium(Statement& s) {
+void DescriptionBuilder::makeMedium(Statement& s) {
   MediumDescription medium;
   medium.name = s.strings[0].text;
   const SourceLocation nameAt = s.strings[0].at;
@@ -85,7 +85,7 @@ void SceneBuilder::makeMedium(Statement& s) {
   scene_.media.push_back(std::move(medium));
 }
 
-void SceneBuilder::mediumInterface(const Statement& s) {
+void DescriptionBuilder::mediumInterface(const Statement& s) {
   MediumPair pair;
   const Statement::Text& inside = s.strings.front();
   const Statement::Text& outside = s.strings.back();  // one name stands for both sides
@@ -96,7 +96,7 @@ void SceneBuilder::mediumInterface(const Statement& s) {
 }
 
 /// The media in force for something built now: names are looked up at their use, not at MediumInterface.
-const SharedMedia& SceneBuilder::mediaHere(const SourceLocation& user) {
+const SharedMedia& DescriptionBuilder::mediaHere(const SourceLocation& user) {
   if (state_.mediaSeen == scene_.media.size() + 1) return state_.media;
   MediumPair pair = *state_.media;
   lookUp(pair.inside, user);
@@ -108,7 +108,7 @@ const SharedMedia& SceneBuilder::mediaHere(const SourceLocation& user) {
   return state_.media;
 }
 
-void SceneBuilder::lookUp(MediumUse& use, const SourceLocation& user) {
+void DescriptionBuilder::lookUp(MediumUse& use, const SourceLocation& user) {
   use.index = kNone;
   if (use.name.empty()) return;
   if (const auto it = mediaByName_.find(use.name); it != mediaByName_.end()) {
@@ -118,7 +118,7 @@ void SceneBuilder::lookUp(MediumUse& use, const SourceLocation& user) {
   }
 }
 
-void SceneBuilder::reportMissingMedia() {
+void DescriptionBuilder::reportMissingMedia() {
   std::vector<std::string> names;
   for (const auto& medium : scene_.media) names.push_back(medium.name);
   for (const auto& [name, missing] : missingMedia_) {
@@ -136,7 +136,7 @@ void SceneBuilder::reportMissingMedia() {
   }
 }
 
-void SceneBuilder::texture(Statement& s) {
+void DescriptionBuilder::texture(Statement& s) {
   TextureDescription texture;
   texture.name = s.strings[0].text;
   const SourceLocation nameAt = s.strings[0].at;
@@ -163,7 +163,7 @@ void SceneBuilder::texture(Statement& s) {
   scene_.textures.push_back(std::move(texture));
 }
 
-void SceneBuilder::material(Statement& s, bool isNamed) {
+void DescriptionBuilder::material(Statement& s, bool isNamed) {
   MaterialDescription material;
   material.scope = state_.scope;
   const auto index = static_cast<std::uint32_t>(scene_.materials.size());
@@ -186,7 +186,7 @@ void SceneBuilder::material(Statement& s, bool isNamed) {
   scene_.materials.push_back(std::move(material));
 }
 
-void SceneBuilder::namedMaterial(const Statement& s) {
+void DescriptionBuilder::namedMaterial(const Statement& s) {
   const std::string& name = s.strings[0].text;
   const auto index = NameScope::find(state_.scope, NameScope::Kind::Materials, name);
   if (!index) {
@@ -197,7 +197,7 @@ void SceneBuilder::namedMaterial(const Statement& s) {
   state_.material = static_cast<std::int32_t>(*index);
 }
 
-void SceneBuilder::light(Statement& s) {
+void DescriptionBuilder::light(Statement& s) {
   LightDescription light;
   s.moveInto(light);
   warnIfAnimated(s);
@@ -206,7 +206,7 @@ void SceneBuilder::light(Statement& s) {
   scene_.lights.push_back(std::move(light));
 }
 
-void SceneBuilder::areaLight(Statement& s) {
+void DescriptionBuilder::areaLight(Statement& s) {
   if (s.strings[0].text.empty()) {
     state_.areaLight = kNone;
     return;
@@ -215,7 +215,7 @@ void SceneBuilder::areaLight(Statement& s) {
   s.moveInto(scene_.areaLights.emplace_back());
 }
 
-void SceneBuilder::shape(Statement& s) {
+void DescriptionBuilder::shape(Statement& s) {
   ShapeDescription shape;
   s.moveInto(shape);
   shape.ctm = state_.ctm;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "scene/scene_builder.h"
+#include "scene/description_builder.h"
 
 #include <algorithm>
 #include <array>
@@ -55,7 +55,7 @@ std::string_view beginOf(Directive opener) {
 
 }  // namespace
 
-void SceneBuilder::apply(Statement s) {
+void DescriptionBuilder::apply(Statement s) {
   if (s.info->block == Block::World && !inWorld_) {
     return diagnostics_.lenientError(
         s.at,
@@ -102,7 +102,7 @@ void SceneBuilder::apply(Statement s) {
   }
 }
 
-void SceneBuilder::applyOption(Statement& s) {
+void DescriptionBuilder::applyOption(Statement& s) {
   switch (s.info->id) {
     case Directive::PixelFilter:
       return s.moveInto(scene_.filter);
@@ -124,7 +124,7 @@ void SceneBuilder::applyOption(Statement& s) {
   }
 }
 
-void SceneBuilder::applyTransform(const Statement& s) {
+void DescriptionBuilder::applyTransform(const Statement& s) {
   const auto& n = s.numbers;
   switch (s.info->id) {
     case Directive::Identity: {
@@ -168,14 +168,14 @@ void SceneBuilder::applyTransform(const Statement& s) {
   }
 }
 
-void SceneBuilder::transformBy(const Statement& s, const Transform& t) {
+void DescriptionBuilder::transformBy(const Statement& s, const Transform& t) {
   TransformPair next = *state_.ctm;
   if (state_.startActive) next.start = next.start * t;
   if (state_.endActive) next.end = next.end * t;
   setCtm(s, next);
 }
 
-void SceneBuilder::setCtm(const Statement& s, TransformPair next) {
+void DescriptionBuilder::setCtm(const Statement& s, TransformPair next) {
   for (const Transform* t : {&next.start, &next.end}) {
     if (t->isSingular()) throw SceneError(s.at, std::string(s.info->name) + ": the matrix has no inverse");
     if (!isFinite(t->matrix()) || !isFinite(t->inverseMatrix())) {
@@ -185,7 +185,7 @@ void SceneBuilder::setCtm(const Statement& s, TransformPair next) {
   state_.ctm = std::make_shared<const TransformPair>(next);
 }
 
-void SceneBuilder::coordSysTransform(const Statement& s) {
+void DescriptionBuilder::coordSysTransform(const Statement& s) {
   const auto it = coordinateSystems_.find(s.strings[0].text);
   if (it != coordinateSystems_.end()) {
     state_.ctm = it->second;
@@ -195,7 +195,7 @@ void SceneBuilder::coordSysTransform(const Statement& s) {
                                                  suggest(s.strings[0].text, keysOf(coordinateSystems_)));
 }
 
-void SceneBuilder::activeTransform(const Statement& s) {
+void DescriptionBuilder::activeTransform(const Statement& s) {
   const bool all = s.word == "All";
   if (!all && s.word != "StartTime" && s.word != "EndTime") {
     const std::array<std::string_view, 3> known{"All", "StartTime", "EndTime"};
@@ -206,7 +206,7 @@ void SceneBuilder::activeTransform(const Statement& s) {
   state_.endActive = all || s.word == "EndTime";
 }
 
-void SceneBuilder::applyBlock(const Statement& s) {
+void DescriptionBuilder::applyBlock(const Statement& s) {
   switch (s.info->id) {
     case Directive::AttributeBegin:
     case Directive::TransformBegin:
@@ -228,14 +228,14 @@ void SceneBuilder::applyBlock(const Statement& s) {
   }
 }
 
-void SceneBuilder::openBlock(const Statement& s) {
+void DescriptionBuilder::openBlock(const Statement& s) {
   if (blocks_.size() >= kMaxOpenBlocks) {
     throw SceneError(s.at, "more than " + std::to_string(kMaxOpenBlocks) + " blocks are open");
   }
   blocks_.push_back({s.info->id, s.at, state_, object_});
 }
 
-void SceneBuilder::restore(const OpenBlock& block) {
+void DescriptionBuilder::restore(const OpenBlock& block) {
   if (block.opener == Directive::TransformBegin) {
     state_.ctm = block.saved.ctm;
     state_.startActive = block.saved.startActive;
@@ -246,7 +246,7 @@ void SceneBuilder::restore(const OpenBlock& block) {
   }
 }
 
-void SceneBuilder::closeBlock(const Statement& s, Directive opener) {
+void DescriptionBuilder::closeBlock(const Statement& s, Directive opener) {
   const auto match =
       std::find_if(blocks_.rbegin(), blocks_.rend(), [&](const auto& b) { return b.opener == opener; });
   if (match != blocks_.rbegin()) {  // also when no block is open: then rbegin() == rend() == match
@@ -265,7 +265,7 @@ void SceneBuilder::closeBlock(const Statement& s, Directive opener) {
   }
 }
 
-void SceneBuilder::beginObject(const Statement& s) {
+void DescriptionBuilder::beginObject(const Statement& s) {
   if (object_ != kNone) {
     const ObjectDescription& outer = scene_.objects[static_cast<std::size_t>(object_)];
     diagnostics_.error(s.at, "ObjectBegin inside the definition of object " + quotedName(outer.name) +
@@ -287,7 +287,7 @@ void SceneBuilder::beginObject(const Statement& s) {
   scene_.objects.push_back(std::move(object));
 }
 
-void SceneBuilder::placeObject(const Statement& s) {
+void DescriptionBuilder::placeObject(const Statement& s) {
   const std::string& name = s.strings[0].text;
   const auto it = objectsByName_.find(name);
   if (it == objectsByName_.end()) {
@@ -319,7 +319,7 @@ void SceneBuilder::placeObject(const Statement& s) {
   scene_.instances.push_back(std::move(instance));
 }
 
-void SceneBuilder::beginWorld(const Statement& s) {
+void DescriptionBuilder::beginWorld(const Statement& s) {
   inWorld_ = true;
   ++worlds_;
   scene_.worldBegin = s.at;
@@ -328,7 +328,7 @@ void SceneBuilder::beginWorld(const Statement& s) {
   coordinateSystems_["world"] = state_.ctm;
 }
 
-void SceneBuilder::endWorld(const Statement& s) {
+void DescriptionBuilder::endWorld(const Statement& s) {
   for (const OpenBlock& block : blocks_) {
     diagnostics_.warning(block.at, std::string(beginOf(block.opener)) + " without " +
                                        std::string(endOf(block.opener)) + " at WorldEnd");
@@ -341,7 +341,7 @@ void SceneBuilder::endWorld(const Statement& s) {
   reset();
 }
 
-void SceneBuilder::reset() {
+void DescriptionBuilder::reset() {
   scene_ = {};
   scene_.camera.worldFromCamera = std::make_shared<const TransformPair>();
   state_ = {};
@@ -355,7 +355,7 @@ void SceneBuilder::reset() {
   notedNesting_ = false;
 }
 
-void SceneBuilder::finish() {
+void DescriptionBuilder::finish() {
   if (inWorld_)
     diagnostics_.error(scene_.worldBegin, "the input ends without the WorldEnd of this WorldBegin");
   if (worlds_ == 0 && !diagnostics_.hasErrors()) {

@@ -13,9 +13,9 @@ namespace pbrtmedia {
 
 /// Carries out statements: keeps the graphics state (reference 5) and collects one description per WorldEnd.
 /// Include is not its business.
-class SceneBuilder {
+class DescriptionBuilder {
  public:
-  explicit SceneBuilder(Diagnostics& diagnostics) : diagnostics_(diagnostics) { reset(); }
+  explicit DescriptionBuilder(Diagnostics& diagnostics) : diagnostics_(diagnostics) { reset(); }
 
   /// Throws SceneError, or adds to the diagnostics where the statement still means something.
   void apply(Statement s);
