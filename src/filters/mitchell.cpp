@@ -7,10 +7,10 @@
 namespace pbrtmedia {
 namespace {
 
-/// Eq. (8) of the paper at t >= 0; support [0, 2].
-float piecewiseCubic(float t, float b, float c) {
+/// Eq. (8) of the paper at t >= 0; support [0, 2]. In double: the cubics cancel near t = 1.
+double piecewiseCubic(double t, double b, double c) {
   if (t >= 2) return 0;
-  const float cubic =
+  const double cubic =
       t <= 1 ? ((12 - 9 * b - 6 * c) * t + (-18 + 12 * b + 6 * c)) * t * t + (6 - 2 * b)
              : (((-b - 6 * c) * t + (6 * b + 30 * c)) * t - (12 * b + 48 * c)) * t + (8 * b + 24 * c);
   return cubic / 6;
@@ -25,8 +25,8 @@ MitchellFilter::MitchellFilter(const Params& params)
 }
 
 float MitchellFilter::evaluate(Point2f p) const {
-  return piecewiseCubic(2 * std::abs(p.x) / radius().x, b_, c_) *
-         piecewiseCubic(2 * std::abs(p.y) / radius().y, b_, c_);
+  return static_cast<float>(piecewiseCubic(2 * std::abs(p.x) / radius().x, b_, c_) *
+                            piecewiseCubic(2 * std::abs(p.y) / radius().y, b_, c_));
 }
 
 }  // namespace pbrtmedia

@@ -1,0 +1,385 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "film/film.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "base/diagnostics.h"
+#include "base/parallel.h"
+#include "base/rng.h"
+#include "filters/box.h"
+#include "filters/gaussian.h"
+#include "filters/mitchell.h"
+#include "filters/sinc.h"
+#include "filters/triangle.h"
+
+namespace pbrtmedia {
+namespace {
+
+std::unique_ptr<Filter> box(float r = 0.5f) { return std::make_unique<BoxFilter>(BoxFilter::Params{{r, r}}); }
+
+std::vector<std::unique_ptr<Filter>> allFilters() {
+  std::vector<std::unique_ptr<Filter>> f;
+  f.push_back(box());
+  f.push_back(box(1.25f));
+  f.push_back(std::make_unique<TriangleFilter>(TriangleFilter::Params{}));
+  f.push_back(std::make_unique<GaussianFilter>(GaussianFilter::Params{}));
+  f.push_back(std::make_unique<MitchellFilter>(MitchellFilter::Params{}));
+  f.push_back(std::make_unique<SincFilter>(SincFilter::Params{}));
+  return f;
+}
+
+Film::Settings sized(int width, int height) {
+  Film::Settings s;
+  s.resolution = {width, height};
+  return s;
+}
+
+Film cropped(int width, int height, float x0, float x1, float y0, float y1,
+             std::unique_ptr<Filter> filter = box()) {
+  Film::Settings s = sized(width, height);
+  s.cropWindow[0] = x0;
+  s.cropWindow[1] = x1;
+  s.cropWindow[2] = y0;
+  s.cropWindow[3] = y1;
+  return Film(s, std::move(filter));
+}
+
+void setSample(SamplePass& pass, Point2i pixel, int s, Point2f offset, Rgb radiance) {
+  pass.at(pixel, s) = {offset, radiance, true};
+}
+
+template <class Value>
+SamplePass filled(const Film& film, int samples, Value&& value) {
+  SamplePass pass(film.sampleBounds(), samples);
+  const Bounds2i b = film.sampleBounds();
+  for (int s = 0; s < samples; ++s) {
+    for (int y = b.min.y; y < b.max.y; ++y) {
+      for (int x = b.min.x; x < b.max.x; ++x) {
+        Rng rng(hashCombine(static_cast<std::uint64_t>(x + 1000), static_cast<std::uint64_t>(y + 1000),
+                            static_cast<std::uint64_t>(s)));
+        const float u = rng.uniform(), v = rng.uniform();
+        setSample(pass, {x, y}, s, {u, v}, value(rng));
+      }
+    }
+  }
+  return pass;
+}
+
+Rgb noise(Rng& rng) {
+  const float r = rng.uniform(), g = 100 * rng.uniform();
+  return {r, g, rng.uniform() * 1e-3f};
+}
+
+SamplePass part(const SamplePass& all, int first, int count) {
+  SamplePass pass(all.bounds(), count);
+  const Bounds2i b = all.bounds();
+  for (int s = 0; s < count; ++s) {
+    for (int y = b.min.y; y < b.max.y; ++y) {
+      for (int x = b.min.x; x < b.max.x; ++x) pass.at({x, y}, s) = all.at({x, y}, first + s);
+    }
+  }
+  return pass;
+}
+
+TEST(FilmBounds, RoundCropEdgesUpInFloatLikePbrt) {
+  EXPECT_EQ(cropped(200, 200, 0, 0.9f, 0, 0.8f).pixelBounds(), (Bounds2i{{0, 0}, {180, 160}}));
+  EXPECT_EQ(cropped(200, 100, 0.25f, 0.755f, 0.1f, 1).pixelBounds(), (Bounds2i{{50, 10}, {151, 100}}));
+  EXPECT_EQ(cropped(3, 3, 0.3f, 0.7f, 0, 1).pixelBounds(), (Bounds2i{{1, 0}, {3, 3}}));
+}
+
+TEST(FilmBounds, OfNeighbouringCropsTileThePicture) {
+  for (const int width : {7, 200, 1023}) {
+    int next = 0;
+    for (int k = 0; k < 5; ++k) {
+      const Bounds2i b =
+          cropped(width, 4, static_cast<float>(k) / 5, static_cast<float>(k + 1) / 5, 0, 1).pixelBounds();
+      EXPECT_EQ(b.min.x, next);
+      next = b.max.x;
+    }
+    EXPECT_EQ(next, width);
+  }
+}
+
+TEST(FilmBounds, SortAndClampTheCropWindow) {
+  const Film film = cropped(10, 10, 0.8f, 0.2f, -3, 7);
+  EXPECT_EQ(film.pixelBounds(), (Bounds2i{{2, 0}, {8, 10}}));
+  EXPECT_EQ(film.settings().cropWindow[0], 0.2f);
+  EXPECT_EQ(film.settings().cropWindow[3], 1.0f);
+}
+
+TEST(FilmBounds, SamplesAreTakenAsFarAsTheFilterReaches) {
+  const auto bounds = [](std::unique_ptr<Filter> f) {
+    return cropped(10, 10, 0.2f, 0.8f, 0, 1, std::move(f)).sampleBounds();
+  };
+  EXPECT_EQ(bounds(box(0.5f)), (Bounds2i{{2, 0}, {8, 10}}));
+  EXPECT_EQ(bounds(box(0.25f)), (Bounds2i{{2, 0}, {8, 10}}));
+  EXPECT_EQ(bounds(box(0.75f)), (Bounds2i{{1, -1}, {9, 11}}));
+  EXPECT_EQ(bounds(box(2)), (Bounds2i{{0, -2}, {10, 12}}));
+  EXPECT_EQ(bounds(box(1.5f)), (Bounds2i{{1, -1}, {9, 11}}));
+}
+
+TEST(FilmSettings, ThatMakeNoPictureAreErrors) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(Film(sized(0, 5), box()), SceneError);
+  EXPECT_THROW(Film(sized(5, -5), box()), SceneError);
+  EXPECT_THROW(Film(sized(1 << 30, 1), box()), SceneError);
+  EXPECT_THROW(cropped(10, 10, 0.5f, 0.5f, 0, 1), SceneError);
+  EXPECT_THROW(cropped(10, 10, 0.51f, 0.55f, 0, 1), SceneError);  // no pixel begins between them
+  EXPECT_THROW(cropped(10, 10, nan, 1, 0, 1), SceneError);
+  Film::Settings s = sized(2, 2);
+  s.scale = nan;
+  EXPECT_THROW(Film(s, box()), SceneError);
+  s = sized(2, 2);
+  s.maxSampleLuminance = -1;
+  EXPECT_THROW(Film(s, box()), SceneError);
+}
+
+TEST(Film, WithTheDefaultBoxIsThePlainMeanOfAPixelsOwnSamples) {
+  Film film(sized(2, 1), box());
+  SamplePass pass(film.sampleBounds(), 2);
+  setSample(pass, {0, 0}, 0, {0, 0}, Rgb(1, 2, 3));
+  setSample(pass, {0, 0}, 1, {0.99f, 0.5f}, Rgb(3, 2, 1));
+  setSample(pass, {1, 0}, 0, {0, 0.3f}, Rgb(10));  // on the border: belongs to this pixel only
+  setSample(pass, {1, 0}, 1, {0.5f, 0.5f}, Rgb(0));
+  film.accumulate(pass);
+  const Image image = film.develop();
+  EXPECT_EQ(image.rgb(0, 0), Rgb(2));
+  EXPECT_EQ(image.rgb(1, 0), Rgb(5));
+}
+
+TEST(Film, UnsampledPixelsAreBlackAndInvalidSamplesDoNotCount) {
+  Film film(sized(2, 1), box());
+  SamplePass pass(film.sampleBounds(), 2);
+  setSample(pass, {0, 0}, 0, {0.5f, 0.5f}, Rgb(4));
+  pass.at({0, 0}, 1).radiance = Rgb(100);  // not valid
+  film.accumulate(pass);
+  EXPECT_EQ(film.develop().rgb(0, 0), Rgb(4));
+  EXPECT_EQ(film.develop().rgb(1, 0), Rgb(0));
+  EXPECT_EQ(film.sums()[1], Film::Sums{});
+}
+
+// [quirk] of PBRT-v3: a weight is the filter at the centre of a cell, 1/8 pixel wide for radius 2.
+TEST(Film, WeightsAreThoseOfTheSixteenBySixteenTable) {
+  const TriangleFilter exact({.radius = {2, 2}});
+  Film film(sized(5, 5), std::make_unique<TriangleFilter>(TriangleFilter::Params{}));
+  SamplePass pass(film.sampleBounds(), 1);
+  setSample(pass, {2, 2}, 0, {0.8f, 0.4f}, Rgb(1));
+  film.accumulate(pass);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      // Sample minus pixel centre; 8 cells for each pixel of distance, read at the cell's centre.
+      const float dx = static_cast<float>(2 - x) + 0.3f, dy = static_cast<float>(2 - y) - 0.1f;
+      const bool inside = std::abs(dx) < 2 && std::abs(dy) < 2;
+      const float cx = (std::floor(std::abs(dx) * 8) + 0.5f) / 8,
+                  cy = (std::floor(std::abs(dy) * 8) + 0.5f) / 8;
+      const double expected = inside ? exact.evaluate({cx, cy}) : 0;
+      const Film::Sums& sums = film.sums()[static_cast<std::size_t>(5 * y + x)];
+      EXPECT_FLOAT_EQ(static_cast<float>(sums.weight), static_cast<float>(expected)) << x << ' ' << y;
+      EXPECT_EQ(sums.r, sums.weight);
+    }
+  }
+  EXPECT_NE(film.sums()[12].weight, exact.evaluate({0.3f, -0.1f}));  // the exact value is another one
+}
+
+TEST(Film, WeightsMatchABruteForceSumOverAllSamplesForEveryFilter) {
+  for (auto& filter : allFilters()) {
+    const Filter* f = filter.get();
+    Film film = cropped(12, 10, 0.25f, 0.75f, 0.2f, 0.9f, std::move(filter));
+    const SamplePass pass = filled(film, 2, noise);
+    film.accumulate(pass);
+    const Bounds2i b = film.sampleBounds(), p = film.pixelBounds();
+    const Vector2f r = f->radius();
+    for (int y = p.min.y; y < p.max.y; ++y) {
+      for (int x = p.min.x; x < p.max.x; ++x) {
+        double weight = 0, green = 0;
+        for (int sy = b.min.y; sy < b.max.y; ++sy) {
+          for (int sx = b.min.x; sx < b.max.x; ++sx) {
+            for (int s = 0; s < 2; ++s) {
+              const auto& sample = pass.at({sx, sy}, s);
+              const double dx = sx - x + double{sample.offset.x} - 0.5,
+                           dy = sy - y + double{sample.offset.y} - 0.5;
+              if (dx < -r.x || dx >= r.x || dy < -r.y || dy >= r.y) continue;
+              const auto cell = [](double d, float radius) {
+                return static_cast<float>((std::floor(std::abs(d) * 16 / radius) + 0.5) * radius / 16);
+              };
+              const double w = f->evaluate({cell(dx, r.x), cell(dy, r.y)});
+              weight += w;
+              green += w * sample.radiance.g;
+            }
+          }
+        }
+        const auto& sums = film.sums()[static_cast<std::size_t>((y - p.min.y) * p.width() + x - p.min.x)];
+        EXPECT_NEAR(sums.weight, weight, 1e-5) << x << ' ' << y;
+        EXPECT_NEAR(sums.g, green, 1e-3) << x << ' ' << y;
+      }
+    }
+  }
+}
+
+TEST(Film, AConstantImageStaysConstantForEveryFilter) {
+  for (auto& filter : allFilters()) {
+    Film film(sized(6, 5), std::move(filter));
+    film.accumulate(filled(film, 4, [](Rng&) { return Rgb(0.25f, 1, 3); }));
+    const Image image = film.develop();
+    for (int y = 0; y < 5; ++y) {
+      for (int x = 0; x < 6; ++x) {
+        EXPECT_FLOAT_EQ(image.at(x, y, 0), 0.25f);
+        EXPECT_FLOAT_EQ(image.at(x, y, 1), 1.0f);
+        EXPECT_FLOAT_EQ(image.at(x, y, 2), 3.0f);
+      }
+    }
+  }
+}
+
+TEST(Film, DoesNotDependOnHowSamplesAreGroupedIntoPasses) {
+  for (std::size_t i = 0; i < allFilters().size(); ++i) {
+    Film one(sized(9, 7), std::move(allFilters()[i])), two(sized(9, 7), std::move(allFilters()[i])),
+        three(sized(9, 7), std::move(allFilters()[i]));
+    const SamplePass all = filled(one, 6, noise);
+    one.accumulate(all);
+    for (int s = 0; s < 6; ++s) two.accumulate(part(all, s, 1));
+    three.accumulate(part(all, 0, 4));
+    three.accumulate(part(all, 4, 2));
+    EXPECT_EQ(one.sums(), two.sums()) << i;
+    EXPECT_EQ(one.sums(), three.sums()) << i;
+  }
+}
+
+TEST(Film, DoesNotDependOnTheNumberOfThreads) {
+  std::vector<Film::Sums> first;
+  for (const unsigned threads : {1u, 2u, 5u}) {
+    const ThreadLimit limit(threads);
+    Film film(sized(40, 30), std::make_unique<MitchellFilter>(MitchellFilter::Params{}));
+    film.accumulate(filled(film, 2, noise));
+    if (first.empty()) first = film.sums();
+    EXPECT_EQ(film.sums(), first) << threads;
+  }
+}
+
+TEST(Film, ACropIsTheSamePartOfTheWholePicture) {
+  Film whole(sized(20, 10), std::make_unique<GaussianFilter>(GaussianFilter::Params{}));
+  Film crop =
+      cropped(20, 10, 0.25f, 0.75f, 0.3f, 0.8f, std::make_unique<GaussianFilter>(GaussianFilter::Params{}));
+  whole.accumulate(filled(whole, 3, noise));
+  crop.accumulate(filled(crop, 3, noise));
+  const Image a = whole.develop(), b = crop.develop();
+  EXPECT_EQ(b.dataWindow, (Bounds2i{{5, 3}, {15, 8}}));
+  EXPECT_EQ(b.displayWindow, (Bounds2i{{0, 0}, {20, 10}}));
+  EXPECT_EQ(a.dataWindow, a.displayWindow);
+  for (int y = 0; y < b.height(); ++y) {
+    for (int x = 0; x < b.width(); ++x) EXPECT_EQ(b.rgb(x, y), a.rgb(x + 5, y + 3));
+  }
+}
+
+TEST(Film, NegativeLobesAreClampedAfterTheDivisionAndBeforeTheScale) {
+  Film::Settings s = sized(5, 1);
+  s.scale = 2;
+  Film film(s, std::make_unique<MitchellFilter>(MitchellFilter::Params{}));
+  SamplePass pass(film.sampleBounds(), 1);
+  for (int x = 0; x < 5; ++x) setSample(pass, {x, 0}, 0, {0.5f, 0.5f}, x == 2 ? Rgb(100) : Rgb(0));
+  setSample(pass, {0, 0}, 0, {0.1f, 0.5f}, Rgb(0));
+  setSample(pass, {2, 0}, 0, {0.1f, 0.5f},
+            Rgb(100));  // 1.6 pixels from the first centre: in the negative lobe
+  film.accumulate(pass);
+  EXPECT_LT(film.sums()[0].r, 0.0);
+  EXPECT_EQ(film.develop().rgb(0, 0), Rgb(0));
+  EXPECT_GT(film.develop().rgb(2, 0).r, 100.0f);
+}
+
+TEST(Film, ScalesEveryPixel) {
+  Film::Settings s = sized(1, 1);
+  s.scale = 0.5f;
+  Film film(s, box());
+  SamplePass pass(film.sampleBounds(), 1);
+  setSample(pass, {0, 0}, 0, {0.5f, 0.5f}, Rgb(1, 2, 4));
+  film.accumulate(pass);
+  EXPECT_EQ(film.develop().rgb(0, 0), Rgb(0.5f, 1, 2));
+}
+
+TEST(Film, SumsKeepSmallSamplesNextToLargeOnes) {
+  Film film(sized(1, 1), box());
+  SamplePass pass(film.sampleBounds(), 1);
+  setSample(pass, {0, 0}, 0, {0.5f, 0.5f}, Rgb(0x1p24f));
+  film.accumulate(pass);
+  setSample(pass, {0, 0}, 0, {0.5f, 0.5f}, Rgb(0.5f));  // would vanish in a float sum
+  for (int i = 0; i < 64; ++i) film.accumulate(pass);
+  EXPECT_EQ(film.sums()[0].r, 0x1p24 + 32);
+}
+
+TEST(Film, RestoresItsSums) {
+  Film film(sized(4, 3), box()), resumed(sized(4, 3), box());
+  const SamplePass all = filled(film, 2, noise);
+  film.accumulate(part(all, 0, 1));
+  resumed.restore(film.sums());
+  film.accumulate(part(all, 1, 1));
+  resumed.accumulate(part(all, 1, 1));
+  EXPECT_EQ(film.sums(), resumed.sums());
+  EXPECT_THROW(resumed.restore(std::vector<Film::Sums>(5)), std::invalid_argument);
+}
+
+TEST(SamplePass, KeepsEachSampleApartAndClears) {
+  SamplePass pass({{-1, -2}, {2, 1}}, 2);
+  EXPECT_EQ(pass.samplesPerPixel(), 2);
+  float n = 0;
+  for (int s = 0; s < 2; ++s) {
+    for (int y = -2; y < 1; ++y) {
+      for (int x = -1; x < 2; ++x) setSample(pass, {x, y}, s, {0, 0}, Rgb(n++));
+    }
+  }
+  n = 0;
+  for (int s = 0; s < 2; ++s) {
+    for (int y = -2; y < 1; ++y) {
+      for (int x = -1; x < 2; ++x) EXPECT_EQ(pass.at({x, y}, s).radiance.r, n++);
+    }
+  }
+  pass.clear();
+  EXPECT_FALSE(pass.at({1, 0}, 1).valid);
+}
+
+class Admission : public testing::Test {
+ protected:
+  bool admit(Rgb& radiance) { return Film(settings_, box()).admit(radiance, counters_); }
+  bool admits(Rgb radiance) { return admit(radiance); }
+  std::uint64_t dropped(DropCause cause) const { return counters_.dropped[static_cast<std::size_t>(cause)]; }
+
+  Film::Settings settings_ = sized(1, 1);
+  RenderCounters counters_;
+};
+
+TEST_F(Admission, CountsEachCauseOfADrop) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(admits({0, nan, 0}));
+  EXPECT_FALSE(admits({nan, kInfinity, 0}));  // not a number comes first
+  EXPECT_FALSE(admits({kInfinity, 0, 0}));
+  EXPECT_FALSE(admits({0, 0, -kInfinity}));
+  EXPECT_FALSE(admits({0, -1, 0}));
+  EXPECT_EQ(dropped(DropCause::NotANumber), 2u);
+  EXPECT_EQ(dropped(DropCause::Infinite), 2u);
+  EXPECT_EQ(dropped(DropCause::Negative), 1u);
+}
+
+TEST_F(Admission, LetsRoundingLeftoversAndCancellingChannelsPass) {
+  EXPECT_TRUE(admits(Rgb(-0.9e-5f)));
+  EXPECT_FALSE(admits(Rgb(-1.1e-5f)));
+  EXPECT_TRUE(admits({-1, 1, 0}));  // luminance 0.5
+  EXPECT_TRUE(admits(Rgb(0)));
+  EXPECT_TRUE(admits(Rgb(1e30f)));
+  EXPECT_EQ(counters_.droppedTotal(), 1u);
+}
+
+TEST_F(Admission, ScalesBrightSamplesDownToTheLimit) {
+  settings_.maxSampleLuminance = 10;
+  Rgb bright(50, 100, 200), dim(5);
+  const float luminance = bright.luminance();
+  EXPECT_TRUE(admit(bright));
+  EXPECT_TRUE(admit(dim));
+  EXPECT_NEAR(bright.luminance(), 10, 1e-4);
+  EXPECT_FLOAT_EQ(bright.r, 50 * 10 / luminance);
+  EXPECT_EQ(dim, Rgb(5));
+  EXPECT_EQ(counters_.droppedTotal(), 0u);
+}
+
+}  // namespace
+}  // namespace pbrtmedia
