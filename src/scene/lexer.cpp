@@ -99,6 +99,10 @@ std::size_t Lexer::readNumbers(T* out, std::size_t most, const Convert& convert)
       p = p_;
       if (p == end) break;
     }
+    if (static_cast<unsigned char>(*p - '0') < 10 && p + 1 != end && isDelimiter(p[1])) {
+      out[count++] = static_cast<T>(*p++ - '0');  // grids are full of zeros
+      continue;
+    }
     Decimal d;
     const char* const start = p;
     T value;
