@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
+#include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -129,26 +130,7 @@ Imf::Header makeHeader(const Image& image, const WriteOptions& options) {
   return header;
 }
 
-}  // namespace
-
-Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
-  try {
-    checkExrHeaders(bytes);
-    ExrMemoryInput stream(bytes, name);
-    Imf::InputFile file(stream);
-    const Imf::ChannelList& channels = file.header().channels();
-    if (channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr) {
-      return readLuminanceChroma(bytes, name);
-    }
-    return readChannels(file);
-  } catch (const std::bad_alloc&) {
-    failFile(name, "OpenEXR: not enough memory for this image");
-  } catch (const std::exception& e) {
-    failFile(name, std::string("OpenEXR: ") + e.what());
-  }
-}
-
-std::string encodeExr(const Image& image, const WriteOptions& options) {
+std::string encodeChecked(const Image& image, const WriteOptions& options) {
   if (image.width() < 1 || image.height() < 1) throw std::runtime_error("an image without pixels");
   if (image.dataWindow.width() != image.width() || image.dataWindow.height() != image.height()) {
     throw std::runtime_error("the data window does not have the size of the image");
@@ -173,6 +155,33 @@ std::string encodeExr(const Image& image, const WriteOptions& options) {
     file.writePixels(image.height());
   }
   return stream.take();
+}
+
+}  // namespace
+
+Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
+  try {
+    checkExrHeaders(bytes);
+    ExrMemoryInput stream(bytes, name);
+    Imf::InputFile file(stream);
+    const Imf::ChannelList& channels = file.header().channels();
+    if (channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr) {
+      return readLuminanceChroma(bytes, name);
+    }
+    return readChannels(file);
+  } catch (const std::bad_alloc&) {
+    failFile(name, "OpenEXR: not enough memory for this image");
+  } catch (const std::exception& e) {
+    failFile(name, std::string("OpenEXR: ") + e.what());
+  }
+}
+
+std::string encodeExr(const Image& image, const WriteOptions& options) {
+  try {
+    return encodeChecked(image, options);
+  } catch (const Iex::BaseExc& e) {  // not a runtime_error
+    throw std::runtime_error(std::string("OpenEXR: ") + e.what());
+  }
 }
 
 }  // namespace pbrtmedia

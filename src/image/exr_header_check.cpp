@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "image/exr_attribute_check.h"
 #include "image/exr_stream.h"
 
 namespace pbrtmedia {
@@ -21,29 +22,6 @@ namespace {
 constexpr std::int64_t kMaxSide = std::int64_t{1} << 18;
 /// Unpacked bytes that are always allowed, so that tiny files need no argument.
 constexpr std::uint64_t kFreeBytes = std::uint64_t{1} << 22;
-
-/// Walks over the attributes of one header that starts at `position`; returns where it ends.
-std::size_t skipHeader(std::string_view text, std::size_t position) {
-  const auto afterName = [&](std::size_t from) {
-    const std::size_t zero = text.find('\0', from);
-    if (zero == std::string_view::npos) throw std::runtime_error("the header is cut off");
-    return zero + 1;
-  };
-  for (;;) {
-    const std::size_t type = afterName(position);
-    if (type == position + 1) return type;  // an empty name ends the header
-    const std::size_t size = afterName(type);
-    if (text.size() - size < 4) throw std::runtime_error("the header is cut off");
-    std::uint32_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      length |= static_cast<std::uint32_t>(static_cast<unsigned char>(text[size + i])) << (8 * i);
-    }
-    if (length > text.size() - size - 4) {
-      throw std::runtime_error("the header has an attribute longer than the file");
-    }
-    position = size + 4 + length;
-  }
-}
 
 /// What one stored byte can become at most: the limit of the method, rounded up.
 std::uint64_t largestRatio(Imf::Compression c) {
@@ -122,7 +100,7 @@ void checkExrHeaders(std::span<const std::byte> bytes) {
   const bool multiPart = (version & Imf::MULTI_PART_FILE_FLAG) != 0;
   std::size_t position = kFirstHeader;
   do {
-    const std::size_t end = skipHeader(text, position);
+    const std::size_t end = skipExrHeader(text, position);
     ExrMemoryInput stream(bytes, "header");
     stream.seekg(position);
     Imf::Header header;

@@ -20,7 +20,8 @@ namespace {
 /// Deflate turns one byte into at most 1032; a header that claims more is a lie.
 constexpr std::uint64_t kDeflateRatio = 1032;
 constexpr std::size_t kMessageBytes = 200;
-constexpr std::size_t kMaxKeyword = 79;  // of a text chunk
+constexpr std::size_t kSmallChunk = std::size_t{1} << 20;  // what an optional chunk may unpack to in any file
+constexpr std::size_t kMaxKeyword = 79;                    // of a text chunk
 
 struct Source {
   const std::byte* data;
@@ -64,6 +65,8 @@ class PngReader {
       throw std::bad_alloc();
     }
     png_set_read_fn(png_, &source_, onRead);
+    // libpng takes memory for a text or profile by its stated length before it reads it.
+    png_set_chunk_malloc_max(png_, std::max(bytes.size(), kSmallChunk));
   }
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;

@@ -4,8 +4,8 @@
 #include "base/diagnostics.h"
 #include "image/codecs.h"
 
-// Image files of any content. The first byte chooses the decoder for data without a signature, so that TGA,
-// which has none, is reached; files with one go to their own decoder.
+// Image files of any content. A file without a signature is taken as TGA, which has none. What decodes must
+// be whole and survive being written; everything else must be refused by SceneError.
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   using namespace pbrtmedia;
@@ -15,9 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     const Image image = decodeImage(format, bytes, "fuzz.tga");
     const std::size_t pixels =
         static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
-    // What was decoded must be whole; a format that is refused must say so by SceneError.
     if (image.data().size() != pixels * image.channelCount() || pixels == 0) std::abort();
-    // Small images must survive being written and read again.
     if (pixels <= 4096 && image.channelCount() <= 8) {
       const std::string again = encodeExr(image, {PixelType::Float, ExrCompression::Zip});
       const Image back = decodeExr(

@@ -80,7 +80,7 @@ TEST(Exr, RefusesAWindowOfAnotherSizeAndMetadataThatCollide) {
   EXPECT_THROW(encodeExr(image, {}), std::runtime_error);
   image = sampleImage();
   image.metadata["channels"] = "three";
-  EXPECT_THROW(encodeExr(image, {}), std::exception);
+  EXPECT_THROW(encodeExr(image, {}), std::runtime_error);
   image = sampleImage();
   image.metadata[""] = "nameless";
   EXPECT_THROW(encodeExr(image, {}), std::runtime_error);
@@ -182,6 +182,22 @@ TEST(Exr, RefusesAttributesLongerThanTheFile) {
   const std::size_t value = attribute(bytes, "samples\0string\0"s);
   setWord(bytes, value - 4, 0x7fffffffu, 4, false);
   expectRefused(ImageFormat::Exr, bytes, "attribute longer than the file");
+}
+
+TEST(Exr, RefusesAttributesWhoseSizeDoesNotFitTheirType) {
+  using namespace std::string_literals;
+  const std::string bytes = encodeExr(patternImage(3, 2), {});
+  for (const std::string& name : {"dataWindow\0box2i\0"s, "channels\0chlist\0"s,
+                                  "compression\0compression\0"s, "pixelAspectRatio\0float\0"s}) {
+    for (const unsigned size : {0u, 3u, 17u, 55u}) {
+      std::string changed = bytes;
+      const std::size_t value = attribute(bytes, name);
+      ASSERT_LT(value, bytes.size());
+      if (static_cast<unsigned char>(changed[value - 4]) == size) continue;
+      setWord(changed, value - 4, size, 4, false);
+      expectRefused(ImageFormat::Exr, changed, "header");
+    }
+  }
 }
 
 TEST(Exr, SurvivesByteChanges) {
