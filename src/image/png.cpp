@@ -20,8 +20,7 @@ namespace {
 /// Deflate turns one byte into at most 1032; a header that claims more is a lie.
 constexpr std::uint64_t kDeflateRatio = 1032;
 constexpr std::size_t kMessageBytes = 200;
-constexpr std::size_t kSmallChunk = std::size_t{1} << 20;  // what an optional chunk may unpack to in any file
-constexpr std::size_t kMaxKeyword = 79;                    // of a text chunk
+constexpr std::size_t kMaxKeyword = 79;  // of a text chunk
 
 struct Source {
   const std::byte* data;
@@ -65,8 +64,6 @@ class PngReader {
       throw std::bad_alloc();
     }
     png_set_read_fn(png_, &source_, onRead);
-    // libpng takes memory for a text or profile by its stated length before it reads it.
-    png_set_chunk_malloc_max(png_, std::max(bytes.size(), kSmallChunk));
   }
   PngReader(const PngReader&) = delete;
   PngReader& operator=(const PngReader&) = delete;
@@ -194,9 +191,22 @@ unsigned char quantizeLinear(float v) {
   return static_cast<unsigned char>(std::min(std::floor(scaled), 255.0f));
 }
 
+/// libpng takes memory for a chunk by its stated length before it reads it.
+void requireChunksInside(std::span<const std::byte> bytes, const std::string& name) {
+  constexpr std::size_t kSignature = 8, kAroundData = 12;  // length, type and checksum
+  for (std::size_t at = kSignature; bytes.size() >= at + kAroundData;) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::size_t>(bytes[at + i]);
+    if (length > bytes.size() - at - kAroundData)
+      failFile(name, "PNG: the file ends early, inside of a chunk");
+    at += kAroundData + length;
+  }
+}
+
 }  // namespace
 
 Image decodePng(std::span<const std::byte> bytes, const std::string& name) {
+  requireChunksInside(bytes, name);
   PngReader reader(bytes);
   if (!reader.readHeader()) failFile(name, reader.message());
   // Checked on the stored rows, before palettes and small depths are expanded.

@@ -156,6 +156,12 @@ TEST(Png, RefusesBadChecksumsAndMissingRows) {
   expectRefused(ImageFormat::Png, makePng(2, 2, 8, 0, "\0\x11\x22"s), "PNG: ");
 }
 
+TEST(Png, RefusesChunksLongerThanTheFile) {
+  std::string text = chunk("tEXt", "key\0value"s);
+  setWord(text, 0, 0x4c00000au, 4, true);
+  expectRefused(ImageFormat::Png, makePng(1, 1, 8, 0, "\0\x11"s, text), "inside of a chunk");
+}
+
 TEST(Png, SurvivesByteChanges) {
   Image image = patternImage(4, 3);
   image.metadata["samples"] = "12";
