@@ -14,8 +14,8 @@ struct NurbsParams {
   std::vector<float> uknots, vknots;  ///< nu + uorder, nv + vorder values, not decreasing
   std::optional<float> u0 = {}, u1 = {}, v0 = {},
                        v1 = {};         ///< part to use; default the valid range knot[order - 1] ... knot[n]
-  std::vector<Point3f> P;               ///< nu * nv points, u fastest, or
-  std::vector<float> Pw;                ///< 4 * nu * nv homogeneous coordinates (x, y, z already times w)
+  std::vector<Point3f> P = {};          ///< nu * nv points, u fastest, or
+  std::vector<float> Pw = {};           ///< 4 * nu * nv homogeneous coordinates (x, y, z already times w)
   static constexpr int kVertices = 30;  ///< per direction of the mesh
 };
 

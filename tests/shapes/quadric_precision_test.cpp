@@ -10,8 +10,9 @@ using test::makeRay;
 using test::Probe;
 
 /// Chords inside a closed shape, each starting on it in a direction uniform over the inner hemisphere (so
-/// grazing ones are as frequent as any). Every one must hit exactly once: the far side.
-void expectNoLeaks(const Shape& shape, int chords) {
+/// grazing ones are as frequent as any). Every one must hit exactly once: the far side. At cosines below
+/// `rounding` (that of points and directions, as an angle) inside and outside are not told apart.
+void expectNoLeaks(const Shape& shape, int chords, float rounding) {
   const auto& geometry = *std::get<const UserGeometry*>(shape.geometry());
   Rng rng(3);
   int misses = 0, extra = 0, outside = 0;
