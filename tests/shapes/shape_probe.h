@@ -78,12 +78,12 @@ struct QuadricCase {
 inline Vec3d polar(double r, double phi, double z) { return {r * std::cos(phi), r * std::sin(phi), z}; }
 
 inline std::vector<QuadricCase> quadricCases() {
-  const double pi = std::numbers::pi;
+  static constexpr double pi = std::numbers::pi;
   std::vector<QuadricCase> cases;
   cases.push_back(
       {"sphere",
        [](const ShapePlacement& p) { return std::make_unique<Sphere>(Sphere::Params{.radius = 1.5f}, p); },
-       [pi](double u, double v) {
+       [](double u, double v) {
          const double theta = pi - v * pi;
          return polar(1.5 * std::sin(theta), 2 * pi * u, 1.5 * std::cos(theta));
        }});
@@ -92,7 +92,7 @@ inline std::vector<QuadricCase> quadricCases() {
                      return std::make_unique<Sphere>(
                          Sphere::Params{.radius = 1, .zmin = 0.75f, .zmax = -0.5f, .phimax = 200}, p);
                    },
-                   [pi](double u, double v) {
+                   [](double u, double v) {
                      const double theta = lerp(v, std::acos(-0.5), std::acos(0.75));
                      return polar(std::sin(theta), u * radians(200.0), std::cos(theta));
                    }});
@@ -119,7 +119,7 @@ inline std::vector<QuadricCase> quadricCases() {
                      return std::make_unique<Paraboloid>(
                          Paraboloid::Params{.radius = 1, .zmin = 0.125f, .zmax = 2, .phimax = 360}, p);
                    },
-                   [pi](double u, double v) {
+                   [](double u, double v) {
                      const double z = lerp(v, 0.125, 2.0);
                      return polar(std::sqrt(z / 2), 2 * pi * u, z);
                    }});
@@ -138,7 +138,7 @@ inline std::vector<QuadricCase> quadricCases() {
                      return std::make_unique<Hyperboloid>(
                          Hyperboloid::Params{.p1 = {0.75f, 0.5f, -1}, .p2 = {0.25f, 0, 0}, .phimax = 360}, p);
                    },
-                   [pi](double u, double v) {
+                   [](double u, double v) {
                      const double x = 0.25 + 0.5 * v, y = 0.5 * v, a = u * 2 * pi;
                      return Vec3d(x * std::cos(a) - y * std::sin(a), x * std::sin(a) + y * std::cos(a), -v);
                    }});
