@@ -32,13 +32,12 @@ struct LocalLine {
 /// Visits the cells that the line crosses on sMin <= s <= sMax, in order: visit(sExit, storedIndex) returns
 /// false to stop; each cell begins where the one before ends, the last ends at sMax exactly.
 ///
-/// The line must lie inside the lattice up to rounding: the caller has clipped it. Amanatides & Woo 1987, "A
-/// Fast Voxel Traversal Algorithm", without a branch for the axis: all axes whose plane comes first step
+/// The line must be finite and lie inside the lattice up to rounding: the caller has clipped it. After
+/// Amanatides & Woo 1987, "A Fast Voxel Traversal Algorithm", but all axes whose plane comes first step
 /// together, so edges and corners cross no cell of length 0. A line that starts on a plane which it leaves
 /// backward begins with an interval of length 0, which is not visited. Crossings accumulate one rounding per
 /// step, at most 1e-12 of the length after ten thousand; one that strays past the last face is caught by the
-/// apron. Every step moves forward, so there are at most count.x + count.y + count.z + 3 of them, whatever
-/// the numbers.
+/// apron. Every step moves forward, so there are at most count.x + count.y + count.z + 3 of them.
 template <class Visit>
 void walkLattice(const LatticeShape& shape, const LocalLine& line, double sMin, double sMax, Visit&& visit) {
   struct Axis {
