@@ -133,7 +133,8 @@ MediumState CameraMedium::stateFor(const Ray& ray, const Scene& scene, const Med
   link.d = offset / link.tMax;
   link.time = ray.time;
   LineWalk walk(scene, link, Exclusions{});
-  while (const auto hit = walk.next(counters.rays)) {
+  const auto fits = [&](const SceneHit& h) { return tracker.fits(state, h, scene.surface(h, link), link.d); };
+  while (const auto hit = walk.next(counters.rays, fits)) {
     tracker.cross(state, *hit, scene.surface(*hit, link), link.d, counters, nullptr);
   }
   return state;

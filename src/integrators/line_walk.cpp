@@ -7,6 +7,8 @@ namespace {
 /// Crossings are remembered over this share of the coordinates: a line through a common edge of two triangles
 /// may hit both, some roundings apart, and the accelerator must see that it is one crossing.
 constexpr float kRemembered = 1e-4f;
+/// Hits closer than this share of the coordinates coincide: some roundings of t.
+constexpr float kCoincident = 0x1p-20f;
 
 }  // namespace
 
@@ -21,7 +23,8 @@ void LineWalk::forgetBefore(float t) {
 }
 
 void LineWalk::advancePast(const RayHit& hit) {
-  tMin_ = hit.t;
+  // One float below t: shapes find their roots in double, and one that coincides may be rounded up to t.
+  tMin_ = std::max(tMin_, std::nextafter(hit.t, 0.0f));
   forgetBefore(tMin_ - kRemembered * (tMin_ + maxComponent(abs(ray_.o))));
   if (exclusions_.add(hit.id, hit.t)) return;
   forgetBefore(tMin_);
@@ -30,6 +33,33 @@ void LineWalk::advancePast(const RayHit& hit) {
   tMin_ = std::nextafter(hit.t, kInfinity);
   exclusions_ = fixed_;
   exclusions_.add(hit.id, hit.t);
+}
+
+bool LineWalk::fetch(std::uint64_t& queries) {
+  while (!ended_) {
+    const std::optional<SceneHit> hit = scene_.closest(ray_, tMin_, exclusions_, queries);
+    if (!hit) {
+      ended_ = true;
+      break;
+    }
+    advancePast(hit->hit);
+    if (hit->primitive->isInvisible()) continue;
+    ahead_.push_back(*hit);
+    return true;
+  }
+  return false;
+}
+
+std::size_t LineWalk::lookAhead(std::uint64_t& queries) {
+  if (ahead_.empty() && !fetch(queries)) return 0;
+  const float first = ahead_.front().t();
+  const float last = first + kCoincident * (first + maxComponent(abs(ray_.o)));
+  for (std::size_t i = 0;; ++i) {
+    if (ahead_[i].primitive->material) return i + 1;
+    // Looking one hit ahead costs nothing: whoever passes this boundary asks for the next hit anyway.
+    if (i + 1 == ahead_.size() && !fetch(queries)) return i + 1;
+    if (ahead_[i + 1].t() > last) return i + 1;
+  }
 }
 
 }  // namespace pbrtmedia

@@ -2,31 +2,52 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "integrators/scene.h"
 
 namespace pbrtmedia {
 
-/// The hits along one ray in order, each primitive crossing once. Hits at the same t are all found. Surfaces
-/// that change nothing (Primitive::isInvisible) are passed silently. The ray itself never changes, so hits
-/// along it are ordered consistently; the walk makes strict progress.
+/// The hits along one ray in order, each primitive crossing once. Surfaces that change nothing
+/// (Primitive::isInvisible) are passed silently. The ray itself never changes, so hits along it are ordered
+/// consistently; the walk makes strict progress.
+///
+/// Where surfaces coincide, rounding decides which one is hit first. Their order is therefore chosen: a
+/// surface with a material comes before boundaries without one (fog that ends on the floor is still there
+/// above the floor), and of boundaries one that fits the media the ray is in comes first (one box is left
+/// before the next is entered).
 class LineWalk {
  public:
   /// `exclusions`: what the ray starts on or ends on. `scene` and `ray` are borrowed.
   LineWalk(const Scene& scene, const Ray& ray, const Exclusions& exclusions)
       : scene_(scene), ray_(ray), fixed_(exclusions), exclusions_(exclusions) {}
 
-  /// The next hit; none when there is no further one before ray.tMax.
-  std::optional<SceneHit> next(std::uint64_t& queries) {
-    for (;;) {
-      std::optional<SceneHit> hit = scene_.closest(ray_, tMin_, exclusions_, queries);
-      if (!hit) return hit;
-      advancePast(hit->hit);
-      if (!hit->primitive->isInvisible()) return hit;
+  /// The next hit; none when there is no further one before ray.tMax. `queries`: a counter of ray queries.
+  /// `fits(hit)`: whether a boundary may come next; asked only where several coincide.
+  template <class Fits>
+  std::optional<SceneHit> next(std::uint64_t& queries, const Fits& fits) {
+    const std::size_t group = lookAhead(queries);
+    if (group == 0) return std::nullopt;
+    std::size_t chosen = 0;
+    if (group > 1 && !ahead_[group - 1].primitive->material) {
+      while (chosen + 1 < group && !fits(ahead_[chosen])) ++chosen;
+      if (!fits(ahead_[chosen])) chosen = 0;
+    } else if (group > 1) {
+      chosen = group - 1;
     }
+    const SceneHit hit = ahead_[chosen];
+    ahead_.erase(ahead_.begin() + static_cast<std::ptrdiff_t>(chosen));
+    return hit;
+  }
+  std::optional<SceneHit> next(std::uint64_t& queries) {
+    return next(queries, [](const SceneHit&) { return true; });
   }
 
  private:
+  /// Fills `ahead_` and returns how many of its first hits coincide; a surface with material ends such a
+  /// group.
+  std::size_t lookAhead(std::uint64_t& queries);
+  bool fetch(std::uint64_t& queries);
   void advancePast(const RayHit& hit);
   void forgetBefore(float t);
 
@@ -34,6 +55,8 @@ class LineWalk {
   const Ray& ray_;
   Exclusions fixed_, exclusions_;  ///< as given; with the crossings at tMin_ and beyond
   float tMin_ = 0;
+  bool ended_ = false;
+  std::vector<SceneHit> ahead_;  ///< found but not yet delivered, in order of t
 };
 
 }  // namespace pbrtmedia

@@ -38,6 +38,11 @@ Sides sidesOf(const SceneHit& hit, bool towardOutside) {
   return s;
 }
 
+bool contradicts(const MediumState& state, const Sides& s) {
+  if (s.nearIsPresent) return state.count(s.near) == 0;
+  return s.nearNamesBoundary() && !(state.boundary() == s.near);
+}
+
 void noteMismatch(const MediumState& state, const Sides& sides, Point3f p, RenderCounters& counters,
                   MismatchLog* log) {
   ++counters.mediumMismatches;
@@ -68,12 +73,15 @@ void MediaTracker::cross(MediumState& state, const SceneHit& hit, const SurfaceI
                          RenderCounters& counters, MismatchLog* log) const {
   if (hit.primitive->media.same()) return;
   const Sides s = sidesOf(hit, dot(d, si.n) > 0);
-  const bool contradicts =
-      s.nearIsPresent ? state.count(s.near) == 0 : s.nearNamesBoundary() && !(state.boundary() == s.near);
-  if (contradicts) noteMismatch(state, s, si.p, counters, log);
+  if (contradicts(state, s)) noteMismatch(state, s, si.p, counters, log);
   if (s.nearIsPresent) state.leave(s.near);
   if (s.farIsPresent) state.enter(s.far);
   if (s.farNamesBoundary()) state.setBoundary(s.far);
+}
+
+bool MediaTracker::fits(const MediumState& state, const SceneHit& hit, const SurfaceInteraction& si,
+                        Vector3f d) const {
+  return hit.primitive->media.same() || !contradicts(state, sidesOf(hit, dot(d, si.n) > 0));
 }
 
 void MediaTracker::leaveSurface(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si,

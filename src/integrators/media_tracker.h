@@ -54,6 +54,8 @@ class MediaTracker {
   /// whose near side contradicts the state is counted and noted in `log` (may be null); the boundary wins.
   void cross(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si, Vector3f d,
              RenderCounters& counters, MismatchLog* log) const;
+  /// Whether crossing the surface along `d` would not contradict the state.
+  bool fits(const MediumState& state, const SceneHit& hit, const SurfaceInteraction& si, Vector3f d) const;
   /// State of a ray that starts on the surface along `wi`, when a path in `state` came in from si.wo.
   void leaveSurface(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si, Vector3f wi,
                     RenderCounters& counters, MismatchLog* log) const;

@@ -58,9 +58,13 @@ Rgb PathTracer::trace() {
 PathTracer::Event PathTracer::travel() {
   LineWalk walk(setup_.scene, ray_, Exclusions(rayStart_));
   BoundaryPlane start = startPlane_;
+  const auto fits = [&](const SceneHit& h) {
+    return !setup_.media || setup_.media->fits(state_, h, setup_.scene.surface(h, ray_), ray_.d);
+  };
   double t = 0;
   for (;;) {
-    const std::optional<SceneHit> hit = walk.next(counters_.rays);
+    const std::optional<SceneHit> hit = walk.next(counters_.rays, fits);
+    const double tEnd = hit ? std::max<double>(t, hit->t()) : kInfinity;
     if (!hit && setup_.media) setup_.media->escape(state_, counters_);
     if (seesOnlyEmission()) {
       const bool blocked = hit && hit->primitive->material && !hit->isEmitter();
@@ -68,7 +72,7 @@ PathTracer::Event PathTracer::travel() {
     }
     if (!state_.isVacuum()) {
       Event event = Event::End;
-      if (!passMedium(t, hit ? hit->t() : kInfinity, hit ? &*hit : nullptr, start, event)) return event;
+      if (!passMedium(t, tEnd, hit ? &*hit : nullptr, start, event)) return event;
     }
     if (!hit) {
       collectBackground();
@@ -88,7 +92,7 @@ PathTracer::Event PathTracer::travel() {
         start = planeAt(si, ray_.d);
       }
     }
-    t = hit->t();
+    t = tEnd;
   }
 }
 

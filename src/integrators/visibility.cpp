@@ -27,11 +27,12 @@ Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const S
   LineWalk walk(scene, ray, shadow.exclusions);
   Rgb product(1.0f);
   double t = 0;
+  const auto fits = [&](const SceneHit& h) { return tracker.fits(state, h, scene.surface(h, ray), ray.d); };
   for (;;) {
-    const std::optional<SceneHit> hit = walk.next(counters.shadowRays);
+    const std::optional<SceneHit> hit = walk.next(counters.shadowRays, fits);
     if (hit && hit->primitive->material) return {};
     if (!hit && ray.tMax == kInfinity) tracker.escape(state, counters);
-    const double tEnd = hit ? hit->t() : ray.tMax;
+    const double tEnd = std::max<double>(t, hit ? hit->t() : ray.tMax);
     if (!state.isVacuum()) {
       product *= MediaTracker::transmittance(state, ray, t, tEnd, rng, counters);
       if (product.isBlack()) return product;

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "integrators/vol_path.h"
+
+#include <gtest/gtest.h>
+
+#include "media/grid_medium.h"
+#include "scene_kit.h"
+
+namespace pbrtmedia {
+namespace {
+
+using namespace test;
+using Mode = OverlapRule::Mode;
+
+/// Fog in a box under a white sky, with a matte ball in it.
+std::unique_ptr<Scene> foggyBall(Rgb sigmaA, Rgb sigmaS, int shells, bool ball = true) {
+  SceneKit kit;
+  const Medium* fog = kit.fog("fog", sigmaA, sigmaS);
+  kit.builder.addPrimitive({.shape = kit.box({-2, -2, -2}, {2, 2, 2}), .media = {fog, nullptr}});
+  if (ball) kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 1), .material = kit.matte(0.5f)});
+  for (int i = 0; i < shells; ++i) {
+    kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 1.1f + 0.008f * static_cast<float>(i))});
+  }
+  kit.sky(1);
+  kit.pointLight({0, 3, 1}, 4);
+  return kit.finish();
+}
+const Ray kThroughFog = rayOf({0.3f, 0.2f, 5}, {0.05f, 0.02f, -1});
+
+TEST(VolPath, EmptyShellsChangeNothingAtAll) {
+  const auto bare = foggyBall(Rgb(0.1f), Rgb(0.5f), 0), shelled = foggyBall(Rgb(0.1f), Rgb(0.5f), 200);
+  const PathParams params{.maxDepth = 3};
+  EXPECT_EQ(estimate(*makeVolPath(*bare, params), kThroughFog, 64).values,
+            estimate(*makeVolPath(*shelled, params), kThroughFog, 64).values);
+}
+
+TEST(VolPath, CoincidentSlabsTransmitExactly) {
+  SceneKit kit;
+  const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
+  for (int i = 0; i < 3; ++i) {
+    const auto z = static_cast<float>(i);
+    kit.builder.addPrimitive({.shape = kit.box({-5, -5, z}, {5, 5, z + 1}), .media = {fog, nullptr}});
+  }
+  kit.sky(1);
+  const auto scene = kit.finish();
+  const Estimates e = estimate(*makeVolPath(*scene, {.maxDepth = 0}), rayOf({0.3f, 0.2f, 5}, {0, 0, -1}), 4);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(e.values[i].r, std::exp(-3.0), 1e-7);
+  const ZTest sampled =
+      zTest(estimate(*makeVolPath(*scene), rayOf({0.3f, 0.2f, 5}, {0, 0, -1}), 1 << 16).red, std::exp(-3.0));
+  EXPECT_LT(std::abs(sampled.z()), kMaxAbsZ) << sampled;
+}
+
+/// Everything is as bright as the sky where nothing absorbs, whatever the optical depth.
+TEST(VolPath, FurnaceStaysWhite) {
+  for (const float sigma : {0.01f, 1.0f, 10.0f}) {
+    SceneKit kit;
+    const Medium* fog = kit.fog("fog", Rgb(0), Rgb(sigma));
+    kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 1), .media = {fog, nullptr}});
+    kit.sky(1);
+    const auto scene = kit.finish();
+    const ZTest test = zTest(
+        estimate(*makeVolPath(*scene, {.maxDepth = 100000}), rayOf({0.3f, 0.2f, 5}, {0, 0, -1}), 1 << 10).red,
+        1);
+    EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << "sigma " << sigma << ": " << test;
+  }
+}
+
+TEST(VolPath, ChromaticFurnaceStaysWhite) {
+  SceneKit kit;
+  const Medium* fog = kit.fog("fog", Rgb(0), Rgb(0.2f, 1, 4));
+  kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 1), .media = {fog, nullptr}});
+  kit.sky(1);
+  const auto scene = kit.finish();
+  const Estimates e =
+      estimate(*makeVolPath(*scene, {.maxDepth = 100000}), rayOf({0.3f, 0.2f, 5}, {0, 0, -1}), 1 << 14);
+  for (const RunningStats* channel : {&e.red, &e.green, &e.blue}) {
+    const ZTest test = zTest(*channel, 1);
+    EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+  }
+}
+
+/// Single scattering of a point light through a thin slab of fog seen edge-on has a closed form in one
+/// dimension: with the light on the ray's side at distance h from the line, radiance is the integral of
+/// sigma_s/(4 pi) I exp(-sigma_t (t + r(t)))/r(t)² over the segment, r = distance to the light inside the
+/// fog.
+TEST(VolPath, DepthOneInAMediumIsSingleScattering) {
+  constexpr double kSigmaT = 0.6, kSigmaS = 0.4;
+  SceneKit kit;
+  const Medium* fog = kit.fog("fog", Rgb(0.2f), Rgb(0.4f));
+  kit.builder.addPrimitive({.shape = kit.box({-50, -50, -2}, {50, 50, 2}), .media = {fog, nullptr}});
+  kit.pointLight({0, 1, 0}, 2);
+  const auto scene = kit.finish();
+  double truth = 0;
+  constexpr int kSteps = 20000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double t = (i + 0.5) * 4 / kSteps, z = 2 - t, r2 = 1 + z * z;
+    truth +=
+        kSigmaS / (4 * std::numbers::pi) * 2 * std::exp(-kSigmaT * (t + std::sqrt(r2))) / r2 * 4 / kSteps;
+  }
+  const Ray ray = rayOf({0, 0, 5}, {0, 0, -1});
+  const Estimates one = estimate(*makeVolPath(*scene, {.maxDepth = 1}), ray, 1 << 16);
+  const ZTest test = zTest(one.red, truth);
+  EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+  const ZTest more = zTest(estimate(*makeVolPath(*scene, {.maxDepth = 8}), ray, 1 << 16).red, truth);
+  EXPECT_GT(more.z(), kMaxAbsZ) << more;  // negative control: multiple scattering adds light
+  EXPECT_EQ(estimate(*makeVolPath(*scene, {.maxDepth = 0}), ray, 100).red.mean(), 0);
+}
+
+TEST(VolPath, AreaLightInAMediumAgreesWithItsOwnWeightsAtEveryDepth) {
+  // Light sampling and scattering share the work differently for a near and a far lamp; a one-sided box of
+  // fog around a lamp of radiance 1 that fills the whole sphere of directions is a furnace again.
+  SceneKit kit;
+  const Medium* fog = kit.fog("fog", Rgb(0), Rgb(2));
+  const Shape* wall = kit.sphere({0, 0, 0}, 1, /*reverse=*/true);
+  kit.builder.addPrimitive({.shape = wall,
+                            .material = kit.black(),
+                            .media = {nullptr, fog},
+                            .areaLights = kit.emitters(wall, Rgb(1))});
+  const auto scene = kit.finish();
+  const ZTest test = zTest(estimate(*makeVolPath(*scene, {.maxDepth = 1000}, std::nullopt),
+                                    rayOf({0.1f, 0.2f, 0}, {1, 2, 3}), 1 << 13)
+                               .red,
+                           1);
+  EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+}
+
+TEST(VolPath, RouletteInMediaDoesNotChangeTheMean) {
+  const auto scene = foggyBall(Rgb(0.9f), Rgb(0.3f), 0);
+  const Estimates with =
+      estimate(*makeVolPath(*scene, {.maxDepth = 30, .rrThreshold = 1}), kThroughFog, 1 << 16);
+  const Estimates without =
+      estimate(*makeVolPath(*scene, {.maxDepth = 30, .rrThreshold = 0}), kThroughFog, 1 << 16, 2);
+  const ZTest same = zTest(with.red, without.red);
+  EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
+  EXPECT_LT(with.counters.mediumScatterings, without.counters.mediumScatterings);
+}
+
+TEST(VolPath, AddedOverlapEqualsOneMediumOfTheSum) {
+  const auto build = [](bool split) {
+    SceneKit kit;
+    const Shape* ball = kit.sphere({0, 0, 0}, 1);
+    if (split) {
+      const Medium* a = kit.fog("a", Rgb(0.1f), Rgb(0.9f), {Mode::Add});
+      const Medium* b = kit.fog("b", Rgb(0.3f), Rgb(0.4f), {Mode::Add});
+      kit.builder.addPrimitive({.shape = ball, .media = {a, nullptr}});
+      kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 1), .media = {b, nullptr}});
+    } else {
+      kit.builder.addPrimitive({.shape = ball, .media = {kit.fog("sum", Rgb(0.4f), Rgb(1.3f)), nullptr}});
+    }
+    kit.sky(1);
+    return kit.finish();
+  };
+  const auto one = build(false), two = build(true);
+  const Ray ray = rayOf({0.3f, 0.2f, 5}, {0, 0, -1});
+  const Estimates a = estimate(*makeVolPath(*one), ray, 1 << 15),
+                  b = estimate(*makeVolPath(*two), ray, 1 << 15, 2);
+  const ZTest same = zTest(a.red, b.red);
+  EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
+  EXPECT_EQ(b.counters.mediumMismatches, 0u);
+}
+
+TEST(VolPath, InstancedMediaEqualCopies) {
+  const Transform place =
+      Transform::translate({1, 2, 3}) * Transform::rotate(30, {0, 1, 1}) * Transform::scale(2, 1, 0.5);
+  GridMediumParams grid;
+  grid.sigmaA = Rgb(0.5f);
+  grid.sigmaS = Rgb(1.5f);
+  grid.grid.nx = grid.grid.ny = grid.grid.nz = 2;
+  grid.grid.density = {0, 1, 2, 3, 4, 5, 6, 7};
+  grid.grid.p0 = {-1, -1, -1};
+  grid.grid.p1 = {1, 1, 1};
+  const auto build = [&](bool instanced) {
+    SceneKit kit;
+    const Medium* smoke = kit.builder.own(makeGridMedium(grid, instanced ? Transform() : place));
+    if (instanced) {
+      const auto object =
+          kit.builder.addObject({{.shape = kit.box({-1, -1, -1}, {1, 1, 1}), .media = {smoke, nullptr}}});
+      kit.builder.addInstance(object, AnimatedTransform(place));
+    } else {
+      kit.builder.addPrimitive({.shape = kit.box({-1, -1, -1}, {1, 1, 1}, place), .media = {smoke, nullptr}});
+    }
+    kit.sky(1);
+    return kit.finish();
+  };
+  const auto copy = build(false), instance = build(true);
+  for (const Vector3f offset : {Vector3f(0, 0, 0), Vector3f(0.4f, -0.2f, 0.1f)}) {
+    const Ray ray = rayOf(Point3f(1, 2, 9) + offset, {0.02f, 0.05f, -1});
+    const Estimates a = estimate(*makeVolPath(*copy), ray, 1 << 15),
+                    b = estimate(*makeVolPath(*instance), ray, 1 << 15, 2);
+    const ZTest same = zTest(a.red, b.red);
+    EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
+    EXPECT_GT(a.red.variance(), 0);  // the ray does meet the smoke
+  }
+}
+
+TEST(VolPath, TakesTheMediaOnBothSidesOfAScatteringSurface) {
+  // A black-walled room full of absorbing fog: what a matte floor at its bottom sends up is dimmed once down,
+  // once up.
+  SceneKit kit;
+  const Medium* fog = kit.fog("fog", Rgb(0.5f), Rgb(0));
+  kit.builder.addPrimitive(
+      {.shape = kit.square(0, 50), .material = kit.matte(0.5f), .media = {nullptr, fog}});
+  kit.builder.addPrimitive({.shape = kit.square(1, 50), .media = {fog, nullptr}});
+  kit.pointLight({0, 0, 2}, 1);
+  const auto scene = kit.finish();
+  const Estimates e = estimate(*makeVolPath(*scene, {.maxDepth = 1, .rrThreshold = 0}),
+                               rayOf({0, 0, 1.5f}, {0, 0, -1}), 1 << 14);
+  const ZTest test = zTest(e.red, 0.5 / std::numbers::pi / 4 * std::exp(-1.0));
+  EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+  EXPECT_EQ(e.counters.mediumMismatches, 0u);
+}
+
+// ---- No path leaves a closed boundary believing to be inside -----------------------------------------
+
+struct LeakCase {
+  const char* name;
+  Point3f centre;
+  bool isSphere;
+  float size;  ///< radius or half-width
+
+  /// How far outside a point is, negative inside, as a share of the largest coordinate.
+  double outside(Vec3d p) const {
+    const Vec3d d = abs(p - Vec3d(centre));
+    const double beyond = (isSphere ? length(d) : maxComponent(d)) - static_cast<double>(size);
+    return beyond / (static_cast<double>(maxComponent(abs(centre))) + static_cast<double>(size));
+  }
+};
+
+/// Pure scattering that notices segments which lie outside its boundary.
+class WatchedMedium final : public Medium {
+ public:
+  explicit WatchedMedium(const LeakCase& c)
+      : Medium("watched", {}),
+        case_(c),
+        fog_({.name = "fog", .sigmaA = Rgb(0), .sigmaS = Rgb(2 / c.size), .g = 0, .overlap = {}}) {}
+  std::string_view typeName() const override { return "watched"; }
+  Rgb transmittance(const Segment& s, Rng& rng, RenderCounters& counters) const override {
+    watch(s);
+    return fog_.transmittance(s, rng, counters);
+  }
+  FreeFlight sampleFreeFlight(const Segment& s, Rng& rng, RenderCounters& counters) const override {
+    watch(s);
+    return fog_.sampleFreeFlight(s, rng, counters);
+  }
+  const PhaseFunction& phase() const override { return fog_.phase(); }
+  Bounds3f bounds() const override { return fog_.bounds(); }
+  std::string describe() const override { return "watched"; }
+  mutable std::uint64_t segments = 0, leaks = 0;
+
+ private:
+  void watch(const Segment& s) const {
+    ++segments;
+    const double middle = 0.5 * (s.tMin + s.tMax);
+    const Vec3d p = Vec3d(s.o) + middle * Vec3d(s.d);
+    if (!std::isfinite(s.tMax) || case_.outside(p) > 2e-6) ++leaks;
+  }
+  LeakCase case_;
+  HomogeneousMedium fog_;
+};
+
+class ClosedBoundary : public testing::TestWithParam<LeakCase> {};
+
+TEST_P(ClosedBoundary, KeepsRandomWalksInside) {
+  const LeakCase& c = GetParam();
+  SceneKit kit;
+  const WatchedMedium* fog = kit.builder.own(std::make_unique<WatchedMedium>(c));
+  const Vector3f r(c.size, c.size, c.size);
+  const Shape* shape = c.isSphere ? kit.sphere(c.centre, c.size) : kit.box(c.centre - r, c.centre + r);
+  kit.builder.addPrimitive({.shape = shape, .media = {fog, nullptr}});
+  kit.sky(1);
+  const auto scene = kit.finish();
+  ASSERT_TRUE(MediaTracker(*scene).isConfined(fog));
+  const auto integrator = makeVolPath(*scene, {.maxDepth = 1 << 20});
+  Rng rng(5);
+  RenderCounters counters;
+  RandomSampler sampler({.pixelSamples = 1, .seed = 3});
+  constexpr int kWalks = 200000;  // a million over all cases
+  for (int i = 0; i < kWalks; ++i) {
+    const Vector3f d = sampleUniformSphere({rng.uniform(), rng.uniform()});
+    const Vector3f aim = 0.9f * c.size * sampleUniformSphere({rng.uniform(), rng.uniform()});
+    sampler.start({0, 0}, i);
+    SampleContext context{sampler, rng, counters};
+    const RayDifferential ray{rayOf(c.centre + aim + 4 * c.size * d, -d)};
+    EXPECT_NEAR(integrator->radiance(ray, context).r, 1, 1e-3f);
+  }
+  EXPECT_EQ(fog->leaks, 0u) << "of " << fog->segments << " segments";
+  EXPECT_GT(counters.mediumScatterings, static_cast<std::uint64_t>(kWalks));
+  EXPECT_EQ(counters.mediumMismatches, 0u);
+  RecordProperty("repairs", std::to_string(counters.boundaryRepairs));
+}
+
+TEST(WatchedMedium, NoticesLeaks) {  // negative control
+  const LeakCase c{"UnitBox", {0, 0, 0}, false, 1};
+  const WatchedMedium medium(c);
+  Rng rng(1);
+  RenderCounters counters;
+  medium.transmittance({{0, 0, 0}, {0, 0, 1}, 0, 1}, rng, counters);
+  EXPECT_EQ(medium.leaks, 0u);
+  medium.transmittance({{0, 0, 0}, {0, 0, 1}, 1, 1.00002}, rng, counters);
+  medium.transmittance({{0, 0, 0}, {0, 0, 1}, 0, kInfinity}, rng, counters);
+  EXPECT_EQ(medium.leaks, 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Boxes, ClosedBoundary,
+                         testing::Values(LeakCase{"UnitBox", {0, 0, 0}, false, 1},
+                                         LeakCase{"BoxFarAway", {1000, -2000, 500}, false, 1},
+                                         LeakCase{"TinyBoxAwayFromOrigin", {1, 1, 1}, false, 1e-3f},
+                                         LeakCase{"Sphere", {0, 0, 0}, true, 1},
+                                         LeakCase{"SphereFarAway", {1000, -2000, 500}, true, 1}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(ClosedBoundaryEscape, IsPutRight) {
+  // The state a rounding error would leave behind: outside, believing to be inside.
+  SceneKit kit;
+  const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
+  const Medium* smoke = kit.fog("smoke", Rgb(1), Rgb(0), {Mode::Add});
+  kit.builder.addPrimitive({.shape = kit.box({-1, -1, -1}, {1, 1, 1}), .media = {fog, nullptr}});
+  kit.builder.addPrimitive({.shape = kit.box({-2, -2, -2}, {2, 2, 2}), .media = {smoke, nullptr}});
+  const auto scene = kit.finish();
+  const MediaTracker tracker(*scene);
+  MediumState state(PlacedMedium{fog});
+  state.enter({smoke});
+  RenderCounters counters;
+  tracker.escape(state, counters);
+  EXPECT_TRUE(state.isVacuum());
+  EXPECT_EQ(counters.boundaryRepairs, 1u);
+  tracker.escape(state, counters);
+  EXPECT_EQ(counters.boundaryRepairs, 1u);
+}
+
+}  // namespace
+}  // namespace pbrtmedia
