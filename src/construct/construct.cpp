@@ -64,6 +64,13 @@ CameraMedium findCameraMedium(const SceneDescription& scene, const Construction&
   return medium;
 }
 
+/// Nothing would be rendered, silently.
+void checkPixelBounds(const SceneDescription& scene, const IntegratorPlan& integrator, const Film& film) {
+  if (!integrator.pixelBounds || intersect(film.sampleBounds(), *integrator.pixelBounds).area() > 0) return;
+  throw SceneError(scene.integrator.location, "Integrator \"" + scene.integrator.type +
+                                                  "\": \"pixelbounds\" lies outside the rendered image");
+}
+
 }  // namespace
 
 std::optional<Construction> construct(SceneDescription& scene, const ConstructOptions& options,
@@ -84,7 +91,9 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
   if (!integrator || diagnostics.errorCount() > errorsBefore) return std::nullopt;
 
   try {
-    made.film = std::make_unique<Film>(film.settings, std::move(film.filter));
+    made.film = builtAt(scene.film.location, "Film \"image\"",
+                        [&] { return std::make_unique<Film>(film.settings, std::move(film.filter)); });
+    checkPixelBounds(scene, *integrator, *made.film);
     made.scene = world.build(integrator->rendersMedia);
     CameraMedium cameraMedium;
     if (integrator->rendersMedia) cameraMedium = findCameraMedium(scene, made, world, diagnostics);

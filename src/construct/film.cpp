@@ -66,9 +66,19 @@ constexpr std::array<Plugin<ReadFilter>, 5> kFilters = {{{"box", readBox},
 std::unique_ptr<Filter> readFilter(Entity& entity, Diagnostics& diagnostics) {
   if (!entity.given) return std::make_unique<BoxFilter>(BoxFilter::Params{});
   const auto* plugin = findPlugin<ReadFilter>(kFilters, entity, "PixelFilter", diagnostics);
-  if (plugin == nullptr) return std::make_unique<BoxFilter>(BoxFilter::Params{});
+  if (plugin == nullptr) {
+    // PBRT-v3 ends here, so there is no image that --lenient could mean.
+    if (diagnostics.lenient)
+      diagnostics.error(entity.typeLocation, "PixelFilter: nothing can be rendered without a filter");
+    return nullptr;
+  }
   ParamReader in(entity, diagnostics, "PixelFilter \"" + entity.type + "\"");
-  auto filter = plugin->read(in);
+  std::unique_ptr<Filter> filter;
+  try {
+    filter = builtAt(entity.location, in.context(), [&] { return plugin->read(in); });
+  } catch (const SceneError& e) {
+    diagnostics.add(e);
+  }
   in.reportUnused();
   return filter;
 }

@@ -129,10 +129,19 @@ std::optional<LightPlan> readLight(LightDescription& light, bool quick, Diagnost
     return std::nullopt;
   }
   LightPlan plan = plugin->read({in, light.ctm->start, quick});
+  const bool readsFile = in.has(ParamKind::String, "mapname");
   in.reportUnused();
-  return [plan = std::move(plan), location = light.location, context = in.context()] {
+  LightPlan located = [plan = std::move(plan), location = light.location, context = in.context()] {
     return builtAt(location, context, plan);
   };
+  if (readsFile) return located;
+  try {  // made once to have its own checks now, with all other problems
+    located();
+  } catch (const SceneError& e) {
+    diagnostics.add(e);
+    return std::nullopt;
+  }
+  return located;
 }
 
 std::optional<DiffuseAreaLight::Params> readAreaLight(Entity& light, bool quick, Diagnostics& diagnostics) {

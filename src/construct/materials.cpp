@@ -20,11 +20,16 @@ namespace {
 using Make = Materials::Make;
 using ReadMaterial = Make (*)(Texturable&);
 
+constexpr int kMaxNesting = 256;  // mixes within mixes; more than the number of lobes allows
+
 /// A dielectric's index: "eta", else "index".
 TextureUse<float> readEta(Texturable& in, float fallback) {
   const auto eta = in.optionalFloat("eta", Range::positive());
   const auto index = in.optionalFloat("index", Range::positive());
-  return eta ? *eta : index.value_or(TextureUse<float>{TextureUse<float>::kConstant, fallback});
+  TextureUse<float> use =
+      eta ? *eta : index.value_or(TextureUse<float>{TextureUse<float>::kConstant, fallback});
+  if (!use.isConstant()) use.constant = fallback;
+  return use;
 }
 
 Make readMatte(Texturable& in) {
@@ -219,6 +224,7 @@ Materials::Materials(SceneDescription& scene, Textures& textures, Diagnostics& d
     Texturable texturable(in, d.scope);
     const auto* plugin =
         findPlugin<ReadMaterial>(kMaterials, d, d.name.empty() ? "Material" : context, diagnostics);
+    if (plugin == nullptr && !diagnostics.lenient) continue;  // reported; its parameters mean nothing
     // PBRT-v3 makes a matte of an unknown material; that is what --lenient gives.
     plans_[i] = plugin != nullptr ? plugin->read(texturable) : readMatte(texturable);
     in.reportUnused();
@@ -252,6 +258,11 @@ Materials::Use Materials::readForShape(const ShapeDescription& shape, ParamReade
   for (const auto& plugin : kMaterials) {
     if (plugin.name == d.type) read = &plugin.read;
   }
+  if (read == nullptr && !diagnostics.lenient) {
+    for (const Param& param : shape.params.all())
+      param.used = true;  // nobody can tell whether they are right
+    return use;
+  }
   ParamReader own(d, diagnostics, contextOf(d));
   Texturable texturable(in, shape.scope, own, d.scope);
   const std::size_t before = diagnostics.errorCount();
@@ -278,7 +289,13 @@ const Material* Materials::buildShared(std::int32_t index) {
   if (!plans_[i]) return nullptr;
   if (shared_[i] == nullptr) {
     const MaterialDescription& d = scene_.materials[i];
+    if (nesting_ >= kMaxNesting) {
+      throw SceneError(d.location, contextOf(d) + ": is nested more than " + std::to_string(kMaxNesting) +
+                                       " materials deep");
+    }
+    ++nesting_;
     shared_[i] = keep(builtAt(d.location, contextOf(d), [&] { return plans_[i](*this); }));
+    --nesting_;
   }
   return shared_[i];
 }

@@ -50,6 +50,7 @@ class Materials {
   std::vector<Make> plans_;
   std::vector<const Material*> shared_;
   const Material* default_ = nullptr;
+  int nesting_ = 0;  ///< materials that are being built, each for the next
   std::vector<std::unique_ptr<Material>> built_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "construct/plugins.h"
 #include "samplers/halton.h"
@@ -78,8 +79,15 @@ std::unique_ptr<Sampler> readStratified(ParamReader& in, const ConstructOptions&
   if (options.samplesPerPixel) {  // the factors nearest to a square
     auto x = static_cast<std::int64_t>(std::sqrt(static_cast<double>(*options.samplesPerPixel)));
     while (*options.samplesPerPixel % x != 0) --x;
-    p.xSamples = static_cast<int>(x);
-    p.ySamples = static_cast<int>(*options.samplesPerPixel / x);
+    const std::int64_t y = *options.samplesPerPixel / x;
+    if (y > range.max) {
+      in.error("--spp " + std::to_string(*options.samplesPerPixel) + " needs a grid of " + std::to_string(x) +
+               " x " + std::to_string(y) + " strata, expected at most " + std::to_string(1 << 15) +
+               " per axis");
+    } else {
+      p.xSamples = static_cast<int>(x);
+      p.ySamples = static_cast<int>(y);
+    }
   }
   return std::make_unique<StratifiedSampler>(p);
 }
@@ -91,6 +99,20 @@ constexpr std::array<Plugin<ReadSampler>, 7> kSamplers = {{{"halton", readHalton
                                                            {"maxmindist", readMaxMinDist},
                                                            {"stratified", readStratified},
                                                            {"random", readRandom}}};
+
+void warnIfRounded(const ParamReader& in, const ConstructOptions& options, std::int64_t taken,
+                   Diagnostics& diagnostics) {
+  const Param* given = in.entity().params.find(ParamKind::Integer, "pixelsamples");
+  std::optional<std::int64_t> asked = options.samplesPerPixel;
+  if (!asked && !options.quick && given != nullptr) {
+    const auto& counts = std::get<std::vector<int>>(given->values);
+    if (counts.size() == 1) asked = counts.front();
+  }
+  if (!asked || *asked == taken) return;
+  diagnostics.warning(in.locationOf(ParamKind::Integer, "pixelsamples"),
+                      in.context() + ": " + std::to_string(*asked) + " samples per pixel are rounded up to " +
+                          std::to_string(taken) + ", a power of two");
+}
 
 }  // namespace
 
@@ -112,16 +134,8 @@ std::unique_ptr<Sampler> readSampler(SceneDescription& scene, const ConstructOpt
   } catch (const SceneError& e) {
     if (diagnostics.errorCount() == before) diagnostics.add(e);
   }
-  if (sampler != nullptr && diagnostics.errorCount() == before && !options.samplesPerPixel &&
-      !options.quick) {
-    const Param* asked = in.find(ParamKind::Integer, "pixelsamples");
-    const auto* counts = asked != nullptr ? std::get_if<std::vector<int>>(&asked->values) : nullptr;
-    if (counts != nullptr && counts->size() == 1 && counts->front() != sampler->samplesPerPixel()) {
-      diagnostics.warning(in.locationOf(ParamKind::Integer, "pixelsamples"),
-                          in.context() + ": " + std::to_string(counts->front()) +
-                              " samples per pixel are rounded up to " +
-                              std::to_string(sampler->samplesPerPixel()) + ", a power of two");
-    }
+  if (sampler != nullptr && diagnostics.errorCount() == before) {
+    warnIfRounded(in, options, sampler->samplesPerPixel(), diagnostics);
   }
   in.reportUnused();
   return sampler;

@@ -2,14 +2,17 @@
 #include "construct/shapes.h"
 
 #include <array>
+#include <initializer_list>
 #include <utility>
 
 #include "construct/plugins.h"
 #include "shapes/cone.h"
 #include "shapes/cylinder.h"
 #include "shapes/disk.h"
+#include "shapes/heightfield.h"
 #include "shapes/hyperboloid.h"
 #include "shapes/loop_subdivision.h"
+#include "shapes/nurbs.h"
 #include "shapes/paraboloid.h"
 #include "shapes/ply.h"
 #include "shapes/sphere.h"
@@ -24,21 +27,21 @@ struct ShapeInput {
   ParamReader& in;
   ShapePlacement placement;
 };
-using ReadShape = std::optional<ShapePlan> (*)(const ShapeInput&);
+using ReadShape = ShapePlan (*)(const ShapeInput&);
 
 /// A quadric is cheap: it is made at once, so that its own checks are part of the reading.
 template <class Quadric>
-std::optional<ShapePlan> planQuadric(const ShapeInput& input, const typename Quadric::Params& params) {
+ShapePlan planQuadric(const ShapeInput& input, const typename Quadric::Params& params) {
   try {
     auto made = std::make_shared<std::unique_ptr<Shape>>(std::make_unique<Quadric>(params, input.placement));
     return ShapePlan{[made](Diagnostics&) { return std::move(*made); }, std::nullopt, std::nullopt};
   } catch (const std::invalid_argument& e) {
     input.in.error(e.what());
-    return std::nullopt;
+    return {};
   }
 }
 
-std::optional<ShapePlan> readSphere(const ShapeInput& input) {
+ShapePlan readSphere(const ShapeInput& input) {
   Sphere::Params p;
   p.radius = input.in.findFloat("radius", p.radius);
   p.zmin = input.in.optionalFloat("zmin");
@@ -47,7 +50,7 @@ std::optional<ShapePlan> readSphere(const ShapeInput& input) {
   return planQuadric<Sphere>(input, p);
 }
 
-std::optional<ShapePlan> readCylinder(const ShapeInput& input) {
+ShapePlan readCylinder(const ShapeInput& input) {
   Cylinder::Params p;
   p.radius = input.in.findFloat("radius", p.radius);
   p.zmin = input.in.findFloat("zmin", p.zmin);
@@ -56,7 +59,7 @@ std::optional<ShapePlan> readCylinder(const ShapeInput& input) {
   return planQuadric<Cylinder>(input, p);
 }
 
-std::optional<ShapePlan> readDisk(const ShapeInput& input) {
+ShapePlan readDisk(const ShapeInput& input) {
   Disk::Params p;
   p.height = input.in.findFloat("height", p.height);
   p.radius = input.in.findFloat("radius", p.radius);
@@ -65,7 +68,7 @@ std::optional<ShapePlan> readDisk(const ShapeInput& input) {
   return planQuadric<Disk>(input, p);
 }
 
-std::optional<ShapePlan> readCone(const ShapeInput& input) {
+ShapePlan readCone(const ShapeInput& input) {
   Cone::Params p;
   p.radius = input.in.findFloat("radius", p.radius);
   p.height = input.in.findFloat("height", p.height);
@@ -73,7 +76,7 @@ std::optional<ShapePlan> readCone(const ShapeInput& input) {
   return planQuadric<Cone>(input, p);
 }
 
-std::optional<ShapePlan> readParaboloid(const ShapeInput& input) {
+ShapePlan readParaboloid(const ShapeInput& input) {
   Paraboloid::Params p;
   p.radius = input.in.findFloat("radius", p.radius);
   p.zmin = input.in.findFloat("zmin", p.zmin);
@@ -82,7 +85,7 @@ std::optional<ShapePlan> readParaboloid(const ShapeInput& input) {
   return planQuadric<Paraboloid>(input, p);
 }
 
-std::optional<ShapePlan> readHyperboloid(const ShapeInput& input) {
+ShapePlan readHyperboloid(const ShapeInput& input) {
   Hyperboloid::Params p;
   p.p1 = input.in.findPoint3("p1", p.p1);
   p.p2 = input.in.findPoint3("p2", p.p2);
@@ -103,48 +106,58 @@ void readAlpha(const ShapeInput& input, ShapePlan& plan) {
   if (isOpaque(plan.shadowAlpha)) plan.shadowAlpha.reset();
 }
 
+/// How a user may have written (u, v): the first that is there counts.
+constexpr std::array<std::pair<ParamKind, std::string_view>, 4> kUvNames = {{{ParamKind::Point2, "uv"},
+                                                                             {ParamKind::Point2, "st"},
+                                                                             {ParamKind::Float, "uv"},
+                                                                             {ParamKind::Float, "st"}}};
+
 /// The array a mesh problem speaks of, as the user wrote it.
-ParamKind kindOf(const std::string& parameter) {
-  if (parameter == "P") return ParamKind::Point3;
-  if (parameter == "N") return ParamKind::Normal;
-  if (parameter == "S") return ParamKind::Vector3;
-  if (parameter == "uv") return ParamKind::Point2;
-  return ParamKind::Integer;
+std::pair<ParamKind, std::string_view> writtenAs(ParamReader& in, std::string_view parameter) {
+  if (parameter == "P") return {ParamKind::Point3, parameter};
+  if (parameter == "N") return {ParamKind::Normal, parameter};
+  if (parameter == "S") return {ParamKind::Vector3, parameter};
+  if (parameter != "uv") return {ParamKind::Integer, parameter};
+  for (const auto& [kind, name] : kUvNames) {
+    if (in.has(kind, name)) return {kind, name};
+  }
+  return kUvNames.front();
 }
 
 /// Reports them; true when the mesh can be made.
 bool report(const ShapeInput& input, const std::vector<MeshProblem>& problems) {
   bool usable = true;
   for (const MeshProblem& problem : problems) {
+    const auto& [kind, name] = writtenAs(input.in, problem.parameter);
     if (problem.severity == Severity::Error) {
-      input.in.error(kindOf(problem.parameter), problem.parameter, problem.message);
+      input.in.error(kind, name, problem.message);
       usable = false;
     } else {
       input.in.diagnostics().warning(
-          input.in.locationOf(kindOf(problem.parameter), problem.parameter),
-          input.in.context() + ": parameter \"" + problem.parameter + "\": " + problem.message);
+          input.in.locationOf(kind, name),
+          input.in.context() + ": parameter \"" + std::string(name) + "\": " + problem.message);
     }
   }
   return usable;
 }
 
-/// Point2 "uv", point2 "st", float "uv", float "st": the first that is there.
 std::vector<Point2f> takeUv(ParamReader& in) {
-  for (const std::string_view name : {"uv", "st"}) {
-    if (in.has(ParamKind::Point2, name)) return in.takePoint2s(name);
-  }
-  for (const std::string_view name : {"uv", "st"}) {
-    if (!in.has(ParamKind::Float, name)) continue;
-    const std::span<const float> numbers = in.floats(name);
-    if (numbers.size() % 2 != 0) {
-      in.error(ParamKind::Float, name,
-               "found " + std::to_string(numbers.size()) + " numbers, expected pairs");
+  std::vector<Point2f> uv;
+  bool found = false;
+  for (const auto& [kind, name] : kUvNames) {
+    if (!in.has(kind, name) || std::exchange(found, true))
+      continue;  // the others are known, but do not count
+    if (kind == ParamKind::Point2) {
+      uv = in.takePoint2s(name);
+      continue;
     }
-    std::vector<Point2f> uv(numbers.size() / 2);
+    const std::span<const float> numbers = in.floats(name);
+    if (numbers.size() % 2 != 0)
+      in.error(kind, name, "found " + std::to_string(numbers.size()) + " numbers, expected pairs");
+    uv.resize(numbers.size() / 2);
     for (std::size_t i = 0; i < uv.size(); ++i) uv[i] = {numbers[2 * i], numbers[2 * i + 1]};
-    return uv;
   }
-  return {};
+  return uv;
 }
 
 template <class Params>
@@ -156,21 +169,19 @@ ShapePlan planMesh(const ShapeInput& input, std::string_view typeName, std::shar
           std::nullopt, std::nullopt};
 }
 
-bool requireArrays(const ShapeInput& input) {
+/// Whether all are there.
+bool require(ParamReader& in, std::initializer_list<std::pair<ParamKind, std::string_view>> parameters) {
   bool complete = true;
-  if (!input.in.has(ParamKind::Integer, "indices")) {
-    input.in.error("parameter \"integer indices\" is missing");
-    complete = false;
-  }
-  if (!input.in.has(ParamKind::Point3, "P")) {
-    input.in.error("parameter \"point P\" is missing");
+  for (const auto& [kind, name] : parameters) {
+    if (in.has(kind, name)) continue;
+    in.error("parameter \"" + std::string(keyword(kind)) + ' ' + std::string(name) + "\" is missing");
     complete = false;
   }
   return complete;
 }
 
-std::optional<ShapePlan> readTriangleMesh(const ShapeInput& input) {
-  const bool complete = requireArrays(input);
+ShapePlan readTriangleMesh(const ShapeInput& input) {
+  const bool complete = require(input.in, {{ParamKind::Integer, "indices"}, {ParamKind::Point3, "P"}});
   auto params = std::make_shared<TriangleMesh::Params>();
   params->indices = input.in.takeInts("indices");
   params->P = input.in.takePoint3s("P");
@@ -180,15 +191,15 @@ std::optional<ShapePlan> readTriangleMesh(const ShapeInput& input) {
   params->faceIndices = input.in.takeInts("faceIndices");
   ShapePlan alphas;
   readAlpha(input, alphas);
-  if (!complete || !report(input, TriangleMesh::validate(*params))) return std::nullopt;
+  if (!complete || !report(input, TriangleMesh::validate(*params))) return {};
   ShapePlan plan = planMesh(input, "trianglemesh", std::move(params));
   plan.alpha = alphas.alpha;
   plan.shadowAlpha = alphas.shadowAlpha;
   return plan;
 }
 
-std::optional<ShapePlan> readLoopSubdivision(const ShapeInput& input) {
-  const bool complete = requireArrays(input);
+ShapePlan readLoopSubdivision(const ShapeInput& input) {
+  const bool complete = require(input.in, {{ParamKind::Integer, "indices"}, {ParamKind::Point3, "P"}});
   auto params = std::make_shared<LoopSubdivisionParams>();
   const Range levels = Range::closed(0, LoopSubdivisionParams::kMaxLevels);
   const std::optional<int> alias = input.in.optionalInt("nlevels", levels);
@@ -196,7 +207,7 @@ std::optional<ShapePlan> readLoopSubdivision(const ShapeInput& input) {
   input.in.findString("scheme", "");  // accepted and ignored by PBRT-v3 too
   params->indices = input.in.takeInts("indices");
   params->P = input.in.takePoint3s("P");
-  if (!complete || !report(input, validateLoop(*params))) return std::nullopt;
+  if (!complete || !report(input, validateLoop(*params))) return {};
   const ShapePlacement placement = input.placement;
   return ShapePlan{[params, placement](Diagnostics&) -> std::unique_ptr<Shape> {
                      return std::make_unique<TriangleMesh>(subdivideLoop(*params), placement, "loopsubdiv");
@@ -204,13 +215,12 @@ std::optional<ShapePlan> readLoopSubdivision(const ShapeInput& input) {
                    std::nullopt, std::nullopt};
 }
 
-std::optional<ShapePlan> readPlyMesh(const ShapeInput& input) {
+ShapePlan readPlyMesh(const ShapeInput& input) {
+  require(input.in, {{ParamKind::String, "filename"}});
   const auto file = input.in.findInputFile("filename");
-  if (!file && !input.in.has(ParamKind::String, "filename"))
-    input.in.error("parameter \"filename\" is missing");
   ShapePlan plan;
   readAlpha(input, plan);
-  if (!file) return std::nullopt;
+  if (!file) return plan;
   const ShapePlacement placement = input.placement;
   const SourceLocation location = input.in.locationOf(ParamKind::String, "filename");
   plan.make = [path = *file, placement, location](Diagnostics& diagnostics) -> std::unique_ptr<Shape> {
@@ -231,15 +241,71 @@ std::optional<ShapePlan> readPlyMesh(const ShapeInput& input) {
   return plan;
 }
 
-constexpr std::array<Plugin<ReadShape>, 9> kShapes = {{{"sphere", readSphere},
-                                                       {"cylinder", readCylinder},
-                                                       {"disk", readDisk},
-                                                       {"cone", readCone},
-                                                       {"paraboloid", readParaboloid},
-                                                       {"hyperboloid", readHyperboloid},
-                                                       {"trianglemesh", readTriangleMesh},
-                                                       {"plymesh", readPlyMesh},
-                                                       {"loopsubdiv", readLoopSubdivision}}};
+/// A mesh that is tessellated while it is read: its checks belong to the reading, and its input is small.
+template <class Tessellate>
+ShapePlan planTessellation(const ShapeInput& input, std::string_view typeName, const Tessellate& tessellate) {
+  try {
+    return planMesh(input, typeName, std::make_shared<TriangleMesh::Params>(tessellate()));
+  } catch (const std::invalid_argument& e) {
+    input.in.error(e.what());
+    return {};
+  }
+}
+
+ShapePlan readHeightfield(const ShapeInput& input) {
+  ParamReader& in = input.in;
+  const bool complete =
+      require(in, {{ParamKind::Integer, "nu"}, {ParamKind::Integer, "nv"}, {ParamKind::Float, "Pz"}});
+  const std::size_t before = in.diagnostics().errorCount();
+  HeightfieldParams p;
+  p.nu = in.findInt("nu", 2, Range::atLeast(2));
+  p.nv = in.findInt("nv", 2, Range::atLeast(2));
+  p.Pz = in.takeFloats("Pz");
+  if (!complete || in.diagnostics().errorCount() > before) return {};
+  return planTessellation(input, "heightfield", [&] { return tessellateHeightfield(p); });
+}
+
+ShapePlan readNurbs(const ShapeInput& input) {
+  ParamReader& in = input.in;
+  bool complete = require(in, {{ParamKind::Integer, "nu"},
+                               {ParamKind::Integer, "nv"},
+                               {ParamKind::Integer, "uorder"},
+                               {ParamKind::Integer, "vorder"},
+                               {ParamKind::Float, "uknots"},
+                               {ParamKind::Float, "vknots"}});
+  if (!in.has(ParamKind::Point3, "P") && !in.has(ParamKind::Float, "Pw")) {
+    in.error("parameter \"point P\" or \"float Pw\" is missing");
+    complete = false;
+  }
+  const std::size_t before = in.diagnostics().errorCount();
+  NurbsParams p;
+  p.nu = in.findInt("nu", 0);
+  p.nv = in.findInt("nv", 0);
+  p.uorder = in.findInt("uorder", 0);
+  p.vorder = in.findInt("vorder", 0);
+  p.uknots = in.takeFloats("uknots");
+  p.vknots = in.takeFloats("vknots");
+  p.u0 = in.optionalFloat("u0");
+  p.u1 = in.optionalFloat("u1");
+  p.v0 = in.optionalFloat("v0");
+  p.v1 = in.optionalFloat("v1");
+  p.P = in.takePoint3s("P");
+  p.Pw = in.takeFloats("Pw");
+  if (!complete || in.diagnostics().errorCount() > before) return {};
+  return planTessellation(input, "nurbs", [&] { return tessellateNurbs(p); });
+}
+
+constexpr std::array<Plugin<ReadShape>, 11> kShapes = {{{"sphere", readSphere},
+                                                        {"cylinder", readCylinder},
+                                                        {"disk", readDisk},
+                                                        {"cone", readCone},
+                                                        {"paraboloid", readParaboloid},
+                                                        {"hyperboloid", readHyperboloid},
+                                                        {"trianglemesh", readTriangleMesh},
+                                                        {"plymesh", readPlyMesh},
+                                                        {"loopsubdiv", readLoopSubdivision},
+                                                        {"heightfield", readHeightfield},
+                                                        {"nurbs", readNurbs}}};
 
 }  // namespace
 

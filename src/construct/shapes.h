@@ -17,8 +17,9 @@ struct ShapePlan {
   std::optional<TextureUse<float>> alpha, shadowAlpha;
 };
 
-/// Reads a Shape. Nothing for an unknown type or after an error. `in` reads the shape's list; it may be
-/// handed on to the material before unused parameters are reported.
+/// Reads a Shape. Nothing for an unknown type or a transformation without inverse, when no parameter has been
+/// looked at; a plan without `make` after any other error. `in` reads the shape's list; it may be handed on
+/// to the material before unused parameters are reported.
 std::optional<ShapePlan> readShape(ShapeDescription& shape, ParamReader& in, Diagnostics& diagnostics);
 
 }  // namespace pbrtmedia

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "construct/texturable.h"
 
+#include <sstream>
 #include <type_traits>
 #include <vector>
 
 namespace pbrtmedia {
 
 template <class T>
-std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope::Ptr& scope,
-                                                std::string_view name, Range range) {
+std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, std::string_view name, Range range) {
   constexpr bool kIsFloat = std::is_same_v<T, float>;
   constexpr ParamKind kKind = kIsFloat ? ParamKind::Float : ParamKind::Spectrum;
   constexpr auto kFlavour = kIsFloat ? NameScope::Kind::FloatTextures : NameScope::Kind::SpectrumTextures;
@@ -16,12 +16,12 @@ std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope
     in.has(kKind, name);  // a constant of the same name loses, but it is known
     const std::optional<std::string> texture = in.findTextureName(name);
     if (!texture) return std::nullopt;
-    if (const auto index = NameScope::find(scope, kFlavour, *texture)) return TextureUse<T>{*index, T{}};
-    const std::vector<std::string> owned = NameScope::names(scope, kFlavour);
+    if (const auto index = NameScope::find(scope(), kFlavour, *texture)) return TextureUse<T>{*index, T{}};
+    const std::vector<std::string> owned = NameScope::names(scope(), kFlavour);
     const std::vector<std::string_view> known(owned.begin(), owned.end());
     const bool otherFlavour =
-        NameScope::find(scope, kIsFloat ? NameScope::Kind::SpectrumTextures : NameScope::Kind::FloatTextures,
-                        *texture)
+        NameScope::find(
+            scope(), kIsFloat ? NameScope::Kind::SpectrumTextures : NameScope::Kind::FloatTextures, *texture)
             .has_value();
     const std::string what = kIsFloat ? "float" : "spectrum";
     in.error(ParamKind::Texture, name,
@@ -46,7 +46,9 @@ std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope
   const T value = std::get<std::vector<T>>(param->values).front();
   if constexpr (kIsFloat) {
     if (!range.contains(value)) {
-      in.error(kKind, name, "found " + std::to_string(value) + ", expected a number " + range.toString());
+      std::ostringstream found;
+      found << "found " << value << ", expected " << range.toString();
+      in.error(kKind, name, found.str());
       return std::nullopt;
     }
   }
@@ -56,12 +58,12 @@ std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, const NameScope
 template <class T>
 std::optional<TextureUse<T>> Texturable::find(std::string_view name, Range range) {
   if (shape_ != nullptr) {
-    if (auto use = findIn<T>(*shape_, shapeScope_, name, range)) {
+    if (auto use = findIn<T>(*shape_, name, range)) {
       shapeOverrides_ = true;
       return use;
     }
   }
-  return findIn<T>(own_, ownScope_, name, range);
+  return findIn<T>(own_, name, range);
 }
 
 std::optional<TextureUse<float>> Texturable::optionalFloat(std::string_view name, Range range) {
@@ -70,12 +72,19 @@ std::optional<TextureUse<float>> Texturable::optionalFloat(std::string_view name
 
 std::optional<TextureUse<Rgb>> Texturable::optionalRgb(std::string_view name) { return find<Rgb>(name, {}); }
 
+template <class T>
+TextureUse<T> Texturable::findOr(std::string_view name, T fallback, Range range) {
+  auto use = find<T>(name, range).value_or(TextureUse<T>{TextureUse<T>::kConstant, fallback});
+  if (!use.isConstant()) use.constant = fallback;
+  return use;
+}
+
 TextureUse<float> Texturable::findFloat(std::string_view name, float fallback, Range range) {
-  return find<float>(name, range).value_or(TextureUse<float>{TextureUse<float>::kConstant, fallback});
+  return findOr<float>(name, fallback, range);
 }
 
 TextureUse<Rgb> Texturable::findRgb(std::string_view name, Rgb fallback) {
-  return find<Rgb>(name, {}).value_or(TextureUse<Rgb>{TextureUse<Rgb>::kConstant, fallback});
+  return findOr<Rgb>(name, fallback, {});
 }
 
 bool Texturable::findBool(std::string_view name, bool fallback) {

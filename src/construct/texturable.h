@@ -18,13 +18,14 @@ template <class T>
 struct TextureUse {
   static constexpr std::uint32_t kConstant = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t texture = kConstant;  ///< into SceneDescription::textures
-  T constant{};
+  T constant{};  ///< the value; of a texture: what stands in when it could not be read (--lenient)
   bool isConstant() const { return texture == kConstant; }
 };
 
 /// Looks parameters up in a shape's list first, then in the material's own (scene-language reference 3.3):
 /// texture in the shape's, constant in the shape's, texture in the own, constant in the own, default. Without
-/// a shape only the own list counts. Remembers whether the shape's list gave anything.
+/// a shape only the own list counts. With a shape, names of both lists mean what they mean at the Shape
+/// (reference 3.4). Remembers whether the shape's list gave anything.
 class Texturable {
  public:
   Texturable(ParamReader& own, NameScope::Ptr ownScope) : own_(own), ownScope_(std::move(ownScope)) {}
@@ -46,10 +47,11 @@ class Texturable {
 
  private:
   template <class T>
-  std::optional<TextureUse<T>> findIn(ParamReader& in, const NameScope::Ptr& scope, std::string_view name,
-                                      Range range);
+  std::optional<TextureUse<T>> findIn(ParamReader& in, std::string_view name, Range range);
   template <class T>
   std::optional<TextureUse<T>> find(std::string_view name, Range range);
+  template <class T>
+  TextureUse<T> findOr(std::string_view name, T fallback, Range range);
 
   ParamReader& own_;
   NameScope::Ptr ownScope_;

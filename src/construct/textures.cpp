@@ -3,6 +3,7 @@
 
 #include <array>
 #include <type_traits>
+#include <utility>
 
 #include "construct/plugins.h"
 #include "image/image.h"
@@ -23,6 +24,8 @@ namespace {
 using Plan = Textures::Plan;
 using ReadTexture = Plan (*)(Texturable&, const TextureDescription&);
 
+constexpr int kMaxNesting = 256;                  // textures within textures; real scenes have a handful
+constexpr std::size_t kMaxEvaluations = 1 << 16;  // a look-up of some milliseconds
 constexpr int kMaxOctaves = 64;  // beyond, 1.99^octaves leaves every footprint and most float ranges
 
 template <class T, class Make>
@@ -228,6 +231,7 @@ constexpr std::array<Plugin<ReadTexture>, 12> kRgbTextures = {{{"constant", read
 
 Textures::Textures(SceneDescription& scene, Diagnostics& diagnostics) : scene_(scene) {
   plans_.resize(scene.textures.size());
+  evaluations_.resize(scene.textures.size());
   builtFloats_.resize(scene.textures.size());
   builtRgbs_.resize(scene.textures.size());
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
@@ -236,13 +240,7 @@ Textures::Textures(SceneDescription& scene, Diagnostics& diagnostics) : scene_(s
     const std::string kind = std::string(isFloat ? "float" : "spectrum") + " texture \"" + d.name + "\"";
     const auto* plugin = isFloat ? findPlugin<ReadTexture>(kFloatTextures, d, kind, diagnostics)
                                  : findPlugin<ReadTexture>(kRgbTextures, d, kind, diagnostics);
-    if (plugin ==
-        nullptr) {  // with --lenient: what PBRT-v3 shows for a texture it does not have, the default
-      plans_[i] =
-          isFloat ? planOf<float>([](Textures&) { return std::make_unique<ConstantTexture<float>>(1.0f); })
-                  : planOf<Rgb>([](Textures&) { return std::make_unique<ConstantTexture<Rgb>>(Rgb(1.0f)); });
-      continue;
-    }
+    if (plugin == nullptr) continue;  // with --lenient its users take their defaults, as in PBRT-v3
     if (d.ctm->isAnimated()) {
       diagnostics.warning(d.location,
                           kind + ": textures do not move; the transformation of the start time is used");
@@ -254,8 +252,31 @@ Textures::Textures(SceneDescription& scene, Diagnostics& diagnostics) : scene_(s
   }
 }
 
+/// Builds one texture. What refers to others can multiply: each doubling of a few lines of text would double
+/// the time of every look-up, and a long chain would exhaust the stack.
+template <class T, class Make>
+std::unique_ptr<Texture<T>> Textures::build(std::uint32_t texture, const Make& make) {
+  const TextureDescription& d = scene_.textures[texture];
+  const std::string context = "texture \"" + d.name + "\"";
+  if (nesting_ >= kMaxNesting) {
+    throw SceneError(d.location,
+                     context + ": is nested more than " + std::to_string(kMaxNesting) + " textures deep");
+  }
+  const std::size_t outer = std::exchange(evaluationsOfInputs_, 1);
+  ++nesting_;
+  std::unique_ptr<Texture<T>> made = builtAt(d.location, context, [&] { return make(*this); });
+  --nesting_;
+  evaluations_[texture] = std::exchange(evaluationsOfInputs_, outer);
+  if (evaluations_[texture] > kMaxEvaluations) {
+    throw SceneError(d.location, context + ": one value takes more than " + std::to_string(kMaxEvaluations) +
+                                     " look-ups of the textures it refers to");
+  }
+  ++builtCount_;
+  return made;
+}
+
 const FloatTexture* Textures::floatTexture(const TextureUse<float>& use) {
-  if (use.isConstant()) {
+  if (use.isConstant() || isMissing(use)) {
     const FloatTexture*& constant = floatConstants_[use.constant];
     if (constant == nullptr) {
       built_.floats.push_back(std::make_unique<ConstantTexture<float>>(use.constant));
@@ -265,18 +286,15 @@ const FloatTexture* Textures::floatTexture(const TextureUse<float>& use) {
   }
   const FloatTexture*& texture = builtFloats_[use.texture];
   if (texture == nullptr) {
-    const TextureDescription& d = scene_.textures[use.texture];
-    auto made = builtAt(d.location, "texture \"" + d.name + "\"",
-                        [&] { return plans_[use.texture].makeFloat(*this); });
-    built_.floats.push_back(std::move(made));
-    builtFloats_[use.texture] = built_.floats.back().get();
-    ++builtCount_;
+    built_.floats.push_back(build<float>(use.texture, plans_[use.texture].makeFloat));
+    texture = built_.floats.back().get();
   }
-  return builtFloats_[use.texture];
+  evaluationsOfInputs_ += evaluations_[use.texture];
+  return texture;
 }
 
 const RgbTexture* Textures::rgbTexture(const TextureUse<Rgb>& use) {
-  if (use.isConstant()) {
+  if (use.isConstant() || isMissing(use)) {
     const RgbTexture*& constant = rgbConstants_[{use.constant.r, use.constant.g, use.constant.b}];
     if (constant == nullptr) {
       built_.rgbs.push_back(std::make_unique<ConstantTexture<Rgb>>(use.constant));
@@ -284,15 +302,13 @@ const RgbTexture* Textures::rgbTexture(const TextureUse<Rgb>& use) {
     }
     return constant;
   }
-  if (builtRgbs_[use.texture] == nullptr) {
-    const TextureDescription& d = scene_.textures[use.texture];
-    auto made =
-        builtAt(d.location, "texture \"" + d.name + "\"", [&] { return plans_[use.texture].makeRgb(*this); });
-    built_.rgbs.push_back(std::move(made));
-    builtRgbs_[use.texture] = built_.rgbs.back().get();
-    ++builtCount_;
+  const RgbTexture*& texture = builtRgbs_[use.texture];
+  if (texture == nullptr) {
+    built_.rgbs.push_back(build<Rgb>(use.texture, plans_[use.texture].makeRgb));
+    texture = built_.rgbs.back().get();
   }
-  return builtRgbs_[use.texture];
+  evaluationsOfInputs_ += evaluations_[use.texture];
+  return texture;
 }
 
 template <class T>

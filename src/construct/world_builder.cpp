@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "construct/world_builder.h"
 
+#include <algorithm>
+
 #include "construct/plugins.h"
 
 namespace pbrtmedia {
 namespace {
 
 constexpr std::uint64_t kMaxInstances = 1u << 28;  // flattened placements; far more than memory has room for
+
+constexpr std::uint32_t kMaxDepth = 1000;  // objects within objects
 
 std::string contextOf(const ShapeDescription& shape) { return "Shape \"" + shape.type + "\""; }
 
@@ -32,6 +36,7 @@ void WorldBuilder::readShapes() {
     read.plan = readShape(shape, in, diagnostics_);
     read.material = materials_.readForShape(shape, in, diagnostics_);
     if (read.plan) in.reportUnused();
+    if (read.plan && !read.plan->make) read.plan.reset();
     if (shape.areaLight != kNone && shape.ctm->isAnimated()) {
       diagnostics_.warning(shape.location,
                            contextOf(shape) + ": area lights on moving shapes are ignored, as in PBRT-v3");
@@ -60,7 +65,14 @@ void WorldBuilder::markUsedObjects() {
       pending.push_back(scene_.instances[inner].object);
   }
   for (const InstanceDescription& instance : scene_.instances) {
-    if (instance.parent == kNone) placements += scene_.objects[instance.object].placedShapes;
+    if (instance.parent != kNone) continue;
+    const ObjectDescription& object = scene_.objects[instance.object];
+    placements += std::min(object.placedShapes, kMaxInstances + 1);
+    if (object.depth > kMaxDepth) {
+      diagnostics_.error(instance.location, "ObjectInstance: \"" + object.name + "\" nests objects " +
+                                                std::to_string(object.depth) + " deep, expected at most " +
+                                                std::to_string(kMaxDepth));
+    }
   }
   if (placements > kMaxInstances) {
     diagnostics_.error(scene_.worldEnd, "nested objects multiply to " + std::to_string(placements) +
@@ -125,20 +137,17 @@ void WorldBuilder::placeShapes(SceneBuilder& builder) {
     if (shape.object != kNone || !shapes_[i].plan) continue;
     Primitive primitive = buildPrimitive(i, builder);
     if (primitive.isInvisible()) continue;
-    if (!shape.ctm->isAnimated()) {
+    if (shape.ctm->isAnimated()) {
+      place(builder, addMoving(builder, *shape.ctm, std::move(primitive)), TransformPair{});
+    } else {
       builder.addPrimitive(std::move(primitive));
-      continue;
     }
-    std::vector<Primitive> alone;
-    alone.push_back(std::move(primitive));
-    builder.addInstance(builder.addObject(std::move(alone)),
-                        AnimatedTransform(shape.ctm->start, scene_.transformStartTime, shape.ctm->end,
-                                          scene_.transformEndTime));
   }
 }
 
 void WorldBuilder::placeObjects(SceneBuilder& builder) {
   objectNumber_.resize(scene_.objects.size());
+  movingShapes_.resize(scene_.objects.size());
   std::size_t left = 0;
   for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
     if (!objectUsed_[i]) {
@@ -148,13 +157,14 @@ void WorldBuilder::placeObjects(SceneBuilder& builder) {
     std::vector<Primitive> primitives;
     for (const std::uint32_t shape : scene_.objects[i].shapes) {
       if (!shapes_[shape].plan) continue;
-      if (scene_.shapes[shape].ctm->isAnimated()) {
-        throw SceneError(scene_.shapes[shape].location,
-                         contextOf(scene_.shapes[shape]) +
-                             ": a moving shape cannot stand in an object; move the instance");
-      }
       Primitive primitive = buildPrimitive(shape, builder);
-      if (!primitive.isInvisible()) primitives.push_back(std::move(primitive));
+      if (primitive.isInvisible()) continue;
+      const TransformPair& ctm = *scene_.shapes[shape].ctm;
+      if (ctm.isAnimated()) {
+        movingShapes_[i].push_back(addMoving(builder, ctm, std::move(primitive)));
+      } else {
+        primitives.push_back(std::move(primitive));
+      }
     }
     objectNumber_[i] = builder.addObject(std::move(primitives));
   }
@@ -164,8 +174,24 @@ void WorldBuilder::placeObjects(SceneBuilder& builder) {
   }
 }
 
+WorldBuilder::MovingShape WorldBuilder::addMoving(SceneBuilder& builder, const TransformPair& ctm,
+                                                  Primitive primitive) {
+  std::vector<Primitive> alone;
+  alone.push_back(std::move(primitive));
+  return {builder.addObject(std::move(alone)), ctm};
+}
+
+void WorldBuilder::place(SceneBuilder& builder, const MovingShape& shape, const TransformPair& outer) {
+  // Its media were defined in the world, where the shape is at the start.
+  builder.addInstance(shape.object,
+                      AnimatedTransform(outer.start * shape.ctm.start, scene_.transformStartTime,
+                                        outer.end * shape.ctm.end, scene_.transformEndTime),
+                      shape.ctm.start);
+}
+
 void WorldBuilder::placeInstance(SceneBuilder& builder, const InstanceDescription& instance,
                                  const TransformPair& outer) {
+  if (scene_.objects[instance.object].placedShapes == 0) return;  // however often it is repeated inside
   const TransformPair place{outer.start * instance.ctm->start, outer.end * instance.ctm->end};
   if (place.start.isSingular() || place.end.isSingular()) {
     throw SceneError(instance.location, "ObjectInstance: the transformation is singular: it has no inverse");
@@ -173,6 +199,7 @@ void WorldBuilder::placeInstance(SceneBuilder& builder, const InstanceDescriptio
   builder.addInstance(
       objectNumber_[instance.object],
       AnimatedTransform(place.start, scene_.transformStartTime, place.end, scene_.transformEndTime));
+  for (const MovingShape& shape : movingShapes_[instance.object]) this->place(builder, shape, place);
   for (const std::uint32_t inner : scene_.objects[instance.object].instances) {
     placeInstance(builder, scene_.instances[inner], place);
   }

@@ -40,6 +40,11 @@ class WorldBuilder {
     std::optional<ShapePlan> plan;
     Materials::Use material;
   };
+  /// A shape with an animated CTM: an object of its own, placed by that.
+  struct MovingShape {
+    std::uint32_t object;
+    TransformPair ctm;
+  };
   void readShapes();
   void markUsedObjects();
   void buildMedia(SceneBuilder& builder);
@@ -47,6 +52,8 @@ class WorldBuilder {
   void addAreaLights(const ShapeDescription& shape, Primitive& primitive, SceneBuilder& builder);
   void placeShapes(SceneBuilder& builder);
   void placeObjects(SceneBuilder& builder);
+  static MovingShape addMoving(SceneBuilder& builder, const TransformPair& ctm, Primitive primitive);
+  void place(SceneBuilder& builder, const MovingShape& shape, const TransformPair& outer);
   void placeInstance(SceneBuilder& builder, const InstanceDescription& instance, const TransformPair& outer);
   void describe(const Textures& textures);
   const Medium* mediumOf(const MediumUse& use) const { return withMedia_ ? medium(use.index) : nullptr; }
@@ -62,6 +69,7 @@ class WorldBuilder {
   std::vector<const Medium*> media_;
   std::vector<bool> objectUsed_;
   std::vector<std::uint32_t> objectNumber_;
+  std::vector<std::vector<MovingShape>> movingShapes_;  ///< of each object
   bool usesMedia_ = false, withMedia_ = true;
   std::vector<std::string> report_;
 };

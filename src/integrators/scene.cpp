@@ -5,10 +5,13 @@
 
 namespace pbrtmedia {
 
-Placement::Placement(std::uint32_t object, const AnimatedTransform& worldFromObject)
+Placement::Placement(std::uint32_t object, const AnimatedTransform& worldFromObject,
+                     const Transform& mediaFromObject)
     : object_(object),
       worldFromObject_(worldFromObject),
-      objectFromWorld_(worldFromObject.start().inverse()) {}
+      mediaFromObject_(mediaFromObject),
+      objectFromWorld_(worldFromObject.start().inverse()),
+      mediaFromWorld_(mediaFromObject * objectFromWorld_) {}
 
 Transform Placement::objectFromWorld(double time) const {
   return worldFromObject_.isAnimated() ? worldFromObject_.at(time).inverse() : objectFromWorld_;
@@ -16,9 +19,9 @@ Transform Placement::objectFromWorld(double time) const {
 
 Segment Placement::toObject(const Segment& s, float time) const {
   if (!worldFromObject_.isAnimated()) {
-    return {objectFromWorld_.point(s.o), objectFromWorld_.vector(s.d), s.tMin, s.tMax};
+    return {mediaFromWorld_.point(s.o), mediaFromWorld_.vector(s.d), s.tMin, s.tMax};
   }
-  const Transform m = objectFromWorld(time);
+  const Transform m = mediaFromObject_ * objectFromWorld(time);
   return {m.point(s.o), m.vector(s.d), s.tMin, s.tMax};
 }
 

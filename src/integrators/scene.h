@@ -13,20 +13,24 @@
 
 namespace pbrtmedia {
 
-/// An object placed in the world. A medium seen through a placement is evaluated in the object's space.
+/// An object placed in the world. A medium seen through a placement moves along with it.
 class Placement {
  public:
-  Placement(std::uint32_t object, const AnimatedTransform& worldFromObject);
+  /// `mediaFromObject`: the space in which the object's media were defined, as seen from the object's.
+  Placement(std::uint32_t object, const AnimatedTransform& worldFromObject,
+            const Transform& mediaFromObject = Transform());
   std::uint32_t object() const { return object_; }
   Transform worldFromObject(double time) const { return worldFromObject_.at(time); }
-  /// The same line in the object's space; t keeps its meaning as a world length.
+  /// The same line in the space in which the object's media were defined; t keeps its meaning as a world
+  /// length.
   Segment toObject(const Segment& segmentWorld, float time) const;
   Transform objectFromWorld(double time) const;
 
  private:
   std::uint32_t object_;
   AnimatedTransform worldFromObject_;
-  Transform objectFromWorld_;  ///< of the start time
+  Transform mediaFromObject_;
+  Transform objectFromWorld_, mediaFromWorld_;  ///< of the start time
 };
 
 /// A hit with the things it refers to. The surface point itself is computed on demand (Scene::surface).

@@ -61,13 +61,14 @@ std::uint32_t SceneBuilder::addObject(std::vector<Primitive> primitives) {
   return static_cast<std::uint32_t>(parts_->objects.size() - 1);
 }
 
-void SceneBuilder::addInstance(std::uint32_t object, const AnimatedTransform& worldFromObject) {
+void SceneBuilder::addInstance(std::uint32_t object, const AnimatedTransform& worldFromObject,
+                               const Transform& mediaFromObject) {
   CHECK_LT(object, parts_->objects.size());
   const Scene::Parts::Group& group = parts_->objects[object];
   if (group.primitives.empty()) return;
   const std::uint32_t number = parts_->top.accelerator.addInstance(group.accelerator, worldFromObject);
   CHECK_EQ(number, parts_->entries.size());
-  parts_->placements.emplace_back(object, worldFromObject);
+  parts_->placements.emplace_back(object, worldFromObject, mediaFromObject);
   parts_->entries.push_back({nullptr, &parts_->placements.back()});
 }
 

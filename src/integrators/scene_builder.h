@@ -37,7 +37,9 @@ class SceneBuilder {
   /// Records an object for instances; its area lights are visible but do not illuminate. May be empty.
   std::uint32_t addObject(std::vector<Primitive> primitives);
   /// Places an object. An empty one places nothing.
-  void addInstance(std::uint32_t object, const AnimatedTransform& worldFromObject);
+  /// `mediaFromObject`: the space in which its media were defined, as seen from the object's.
+  void addInstance(std::uint32_t object, const AnimatedTransform& worldFromObject,
+                   const Transform& mediaFromObject = Transform());
   /// Lights that are on no surface.
   void addLight(std::unique_ptr<Light> light);
 
