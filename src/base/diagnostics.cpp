@@ -2,6 +2,7 @@
 #include "base/diagnostics.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <numeric>
@@ -17,7 +18,7 @@ namespace {
 constexpr std::size_t kExcerptColumns = 100;  // what fits a terminal next to our indent
 constexpr std::size_t kExcerptBytes = 400;  // read around the caret, so that a line of megabytes is no burden
 constexpr std::size_t kTabWidth = 4;
-constexpr std::size_t kMaxComparedLength = 64;  // longer names are no misspellings of ours
+constexpr std::size_t kMaxComparedLength = 32;  // longer names are no misspellings of ours
 
 std::string_view name(Severity s) {
   return s == Severity::Error ? "error" : (s == Severity::Warning ? "warning" : "note");
@@ -179,7 +180,9 @@ std::size_t wordDistance(std::string_view a, std::string_view b) {
   const auto same = [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
   };
-  std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);
+  a = a.substr(0, kMaxComparedLength);
+  b = b.substr(0, kMaxComparedLength);
+  std::array<std::size_t, kMaxComparedLength + 1> before{}, previous, current{};
   std::iota(previous.begin(), previous.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
     current[0] = i;
@@ -203,7 +206,7 @@ struct Ranked {
 std::vector<Ranked> rank(std::string_view found, std::span<const std::string_view> known) {
   std::vector<Ranked> ranked;
   for (const std::string_view k : known) {
-    ranked.push_back({wordDistance(found.substr(0, kMaxComparedLength), k.substr(0, kMaxComparedLength)), k});
+    ranked.push_back({wordDistance(found, k), k});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const Ranked& a, const Ranked& b) { return a.distance < b.distance; });
@@ -232,7 +235,7 @@ std::string SourceLocation::toString() const {
 
 void Diagnostics::add(Severity severity, const SourceLocation& at, std::string message) {
   if (severity == Severity::Error) ++errors_;
-  if (items_.size() >= kMaxKept) {
+  if (isFull()) {
     ++notKept_;
     return;
   }

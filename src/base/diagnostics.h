@@ -75,6 +75,8 @@ class Diagnostics {
   static constexpr std::size_t kMaxShown = 50;
   /// Later items are counted only, so that a hostile file cannot fill the memory with complaints.
   static constexpr std::size_t kMaxKept = 10000;
+  /// Texts are no longer kept, so a costly one need not be made.
+  bool isFull() const { return items_.size() >= kMaxKept; }
 
  private:
   std::vector<Diagnostic> items_;

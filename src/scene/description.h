@@ -107,7 +107,8 @@ struct SceneDescription {
   std::vector<InstanceDescription> instances;  ///< those of the world and of the objects
 
   SourceLocation worldBegin, worldEnd;
-  /// Identity of the scene: of all text read for it (files and their includes) and of its place among the worlds.
+  /// Identity of the scene: of all text read for it (files and their includes) and of its place among the
+  /// worlds.
   std::uint64_t textHash = 0;
 };
 

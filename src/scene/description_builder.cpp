@@ -7,8 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "scene/messages.h"
-
 namespace pbrtmedia {
 namespace {
 
@@ -191,8 +189,9 @@ void DescriptionBuilder::coordSysTransform(const Statement& s) {
     state_.ctm = it->second;
     return;
   }
-  diagnostics_.lenientError(s.strings[0].at, "unknown coordinate system " + quotedName(s.strings[0].text) +
-                                                 suggest(s.strings[0].text, keysOf(coordinateSystems_)));
+  diagnostics_.lenientError(s.strings[0].at,
+                            "unknown coordinate system " + quotedName(s.strings[0].text) +
+                                suggestFrom(s.strings[0].text, [&] { return keysOf(coordinateSystems_); }));
 }
 
 void DescriptionBuilder::activeTransform(const Statement& s) {
@@ -291,8 +290,8 @@ void DescriptionBuilder::placeObject(const Statement& s) {
   const std::string& name = s.strings[0].text;
   const auto it = objectsByName_.find(name);
   if (it == objectsByName_.end()) {
-    throw SceneError(s.strings[0].at,
-                     "unknown object " + quotedName(name) + suggest(name, keysOf(objectsByName_)));
+    throw SceneError(s.strings[0].at, "unknown object " + quotedName(name) +
+                                          suggestFrom(name, [&] { return keysOf(objectsByName_); }));
   }
   const auto index = static_cast<std::int32_t>(it->second);
   const bool isOpen =

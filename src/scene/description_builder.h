@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/graphics_state.h"
+#include "scene/messages.h"
 #include "scene/statement.h"
 
 namespace pbrtmedia {
@@ -57,7 +58,14 @@ class DescriptionBuilder {
   void reportMissingMedia();
   void warnIfAnimated(const Statement& s);
   bool typeFromParameter(Statement& s, Entity& entity);
+  /// The names nearest to `found` among those `names()` lists. Nothing after many of them: a list of all
+  /// names for each of a million misspellings would take forever.
+  template <class Names>
+  std::string suggestFrom(std::string_view found, const Names& names) {
+    return suggestions_++ < kMaxSuggestions ? suggest(found, names()) : std::string();
+  }
 
+  static constexpr std::size_t kMaxSuggestions = 25;
   Diagnostics& diagnostics_;
   SceneDescription scene_;
   GraphicsState state_;
@@ -71,7 +79,7 @@ class DescriptionBuilder {
   };
   std::map<std::string, Missing> missingMedia_;  ///< by name: the first use of a medium not defined by then
   bool notedNesting_ = false;
-  std::size_t worlds_ = 0;
+  std::size_t worlds_ = 0, suggestions_ = 0;
   std::vector<SceneDescription> finished_;
 };
 

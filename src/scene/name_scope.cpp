@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "scene/name_scope.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "base/hash.h"
 
 namespace pbrtmedia {
 namespace {
@@ -13,36 +15,65 @@ std::string keyOf(NameScope::Kind kind, std::string_view name) {
 
 }  // namespace
 
-NameScope::Ptr NameScope::with(const Ptr& scope, Kind kind, std::string_view name, std::uint32_t index) {
-  const auto grown = std::make_shared<NameScope>();
-  grown->entries_.emplace(keyOf(kind, name), index);
-  grown->outer_ = scope;
-  // Take in layers that are not larger than this one, so that sizes at least double going outwards.
-  while (grown->outer_ && grown->outer_->entries_.size() <= grown->entries_.size()) {
-    const Ptr layer = grown->outer_;
-    grown->entries_.insert(layer->entries_.begin(), layer->entries_.end());  // inner bindings stay
-    grown->outer_ = layer->outer_;
+NameScope::Ptr NameScope::node(const NameScope& entry, Ptr left, Ptr right) {
+  const auto made = std::make_shared<NameScope>();
+  made->key_ = entry.key_;
+  made->index_ = entry.index_;
+  made->left_ = std::move(left);
+  made->right_ = std::move(right);
+  return made;
+}
+
+NameScope::Ptr NameScope::insert(const Ptr& tree, const NameScope& entry) {
+  if (!tree) return node(entry, nullptr, nullptr);
+  const int order = entry.key_->text.compare(tree->key_->text);
+  if (order == 0) return node(entry, tree->left_, tree->right_);
+  const Ptr child = insert(order < 0 ? tree->left_ : tree->right_, entry);
+  // The child goes on top when its priority is higher: a rotation.
+  const bool rotate = child->key_->priority > tree->key_->priority;
+  if (order < 0) {
+    return rotate ? node(*child, child->left_, node(*tree, child->right_, tree->right_))
+                  : node(*tree, child, tree->right_);
   }
-  return grown;
+  return rotate ? node(*child, node(*tree, tree->left_, child->left_), child->right_)
+                : node(*tree, tree->left_, child);
+}
+
+NameScope::Ptr NameScope::with(const Ptr& scope, Kind kind, std::string_view name, std::uint32_t index) {
+  std::string key = keyOf(kind, name);
+  const std::uint64_t priority = hashBytes(key);
+  NameScope entry;
+  entry.key_ = std::make_shared<const Key>(Key{std::move(key), priority});
+  entry.index_ = index;
+  return insert(scope, entry);
 }
 
 std::optional<std::uint32_t> NameScope::find(const Ptr& scope, Kind kind, std::string_view name) {
   const std::string key = keyOf(kind, name);
-  for (const NameScope* layer = scope.get(); layer; layer = layer->outer_.get()) {
-    if (const auto it = layer->entries_.find(key); it != layer->entries_.end()) return it->second;
+  const NameScope* at = scope.get();
+  while (at) {
+    const int order = key.compare(at->key_->text);
+    if (order == 0) return at->index_;
+    at = (order < 0 ? at->left_ : at->right_).get();
   }
   return std::nullopt;
 }
 
 std::vector<std::string> NameScope::names(const Ptr& scope, Kind kind) {
   std::vector<std::string> found;
-  for (const NameScope* layer = scope.get(); layer; layer = layer->outer_.get()) {
-    for (const auto& entry : layer->entries_) {
-      if (entry.first[0] == static_cast<char>(kind)) found.push_back(entry.first.substr(1));
+  std::vector<const NameScope*> path;  // nodes whose left side is done or under way
+  for (const NameScope* at = scope.get(); at || !path.empty();) {
+    if (at) {
+      path.push_back(at);
+      at = at->left_.get();
+      continue;
     }
+    at = path.back();
+    path.pop_back();
+    const std::string& key = at->key_->text;
+    if (key[0] == static_cast<char>(kind)) found.push_back(key.substr(1));
+    at = at->right_.get();
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 

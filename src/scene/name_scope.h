@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace pbrtmedia {
@@ -15,7 +14,8 @@ namespace pbrtmedia {
 /// makes a new snapshot, so whoever holds an older one keeps the older meaning of a name
 /// (reference 5.2, 5.4).
 ///
-/// Layers of doubling size: `n` definitions cost O(n log n) in total, a look-up O(log n) layers.
+/// A persistent treap (Seidel & Aragon 1996, doi:10.1007/BF01940876) with the hash of a name as its priority:
+/// a definition copies the O(log n) nodes of one path, whatever block it stands in; a look-up takes O(log n).
 class NameScope {
  public:
   enum class Kind : std::uint8_t { FloatTextures, SpectrumTextures, Materials };
@@ -29,8 +29,16 @@ class NameScope {
   static std::vector<std::string> names(const Ptr& scope, Kind kind);
 
  private:
-  std::unordered_map<std::string, std::uint32_t> entries_;  ///< key: kind as one byte, then the name
-  Ptr outer_;
+  struct Key {
+    std::string text;  ///< the kind as one byte, then the name
+    std::uint64_t priority;
+  };
+  static Ptr node(const NameScope& entry, Ptr left, Ptr right);
+  static Ptr insert(const Ptr& tree, const NameScope& entry);
+
+  std::shared_ptr<const Key> key_;
+  std::uint32_t index_ = 0;
+  Ptr left_, right_;
 };
 
 }  // namespace pbrtmedia

@@ -240,6 +240,10 @@ void ParamReader::reportUnused() {
   }
   for (const Param& p : entity_.params.all()) {
     if (p.used) continue;
+    if (diagnostics_.isFull()) {
+      diagnostics_.lenientError(p.declaredAt, {});
+      continue;
+    }
     std::string kinds;
     for (const auto& asked : asked_) {
       if (asked.second == p.name) kinds += (kinds.empty() ? "" : " or ") + std::string(keyword(asked.first));

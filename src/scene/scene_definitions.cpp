@@ -4,7 +4,6 @@
 #include <array>
 #include <utility>
 
-#include "scene/messages.h"
 #include "scene/description_builder.h"
 
 namespace pbrtmedia {
@@ -74,13 +73,12 @@ void DescriptionBuilder::makeMedium(Statement& s) {
   if (!typeFromParameter(s, medium)) return;
   warnIfAnimated(s);
   medium.ctm = state_.ctm;
-  const auto [it, isNew] =
-      mediaByName_.insert_or_assign(medium.name, static_cast<std::uint32_t>(scene_.media.size()));
-  if (!isNew) {
-    const auto earlier = std::find_if(scene_.media.rbegin(), scene_.media.rend(),
-                                      [&](const auto& m) { return m.name == medium.name; });
+  const auto index = static_cast<std::uint32_t>(scene_.media.size());
+  if (const auto [it, isNew] = mediaByName_.try_emplace(medium.name, index); !isNew) {
     diagnostics_.warning(nameAt, "medium " + quotedName(medium.name) + " was defined before at " +
-                                     earlier->location.toString() + "; later uses take this definition");
+                                     scene_.media[it->second].location.toString() +
+                                     "; later uses take this definition");
+    it->second = index;
   }
   scene_.media.push_back(std::move(medium));
 }
@@ -119,18 +117,19 @@ void DescriptionBuilder::lookUp(MediumUse& use, const SourceLocation& user) {
 }
 
 void DescriptionBuilder::reportMissingMedia() {
-  std::vector<std::string> names;
-  for (const auto& medium : scene_.media) names.push_back(medium.name);
+  const auto names = [&] {
+    std::vector<std::string> all;
+    for (const auto& medium : scene_.media) all.push_back(medium.name);
+    return all;
+  };
   for (const auto& [name, missing] : missingMedia_) {
-    const std::string& wanted = name;
-    const auto later = std::find_if(scene_.media.begin(), scene_.media.end(),
-                                    [&](const auto& m) { return m.name == wanted; });
-    if (later == scene_.media.end()) {
-      diagnostics_.error(missing.named, "undefined medium " + quotedName(name) + suggest(name, names));
+    const auto later = mediaByName_.find(name);
+    if (later == mediaByName_.end()) {
+      diagnostics_.error(missing.named, "undefined medium " + quotedName(name) + suggestFrom(name, names));
     } else {
       diagnostics_.lenientError(missing.named, "medium " + quotedName(name) + " is used at " +
                                                    missing.user.toString() + " but defined only at " +
-                                                   later->location.toString() +
+                                                   scene_.media[later->second].location.toString() +
                                                    "; PBRT-v3 takes vacuum until then");
     }
   }
@@ -190,9 +189,9 @@ void DescriptionBuilder::namedMaterial(const Statement& s) {
   const std::string& name = s.strings[0].text;
   const auto index = NameScope::find(state_.scope, NameScope::Kind::Materials, name);
   if (!index) {
-    throw SceneError(s.strings[0].at,
-                     "unknown material " + quotedName(name) +
-                         suggest(name, NameScope::names(state_.scope, NameScope::Kind::Materials)));
+    throw SceneError(s.strings[0].at, "unknown material " + quotedName(name) + suggestFrom(name, [&] {
+                                        return NameScope::names(state_.scope, NameScope::Kind::Materials);
+                                      }));
   }
   state_.material = static_cast<std::int32_t>(*index);
 }

@@ -222,6 +222,17 @@ TEST(Messages, ParsingStopsAfterTooManyErrors) {
   EXPECT_EQ(p.diagnostics.all().back().message, "too many errors; the rest is not read");
 }
 
+TEST(Messages, ManyMistakesAmongManyNamesTakeLittleTime) {
+  std::string text;
+  for (int i = 0; i < 20000; ++i) text += "CoordinateSystem \"c" + std::to_string(i) + "\"\n";
+  for (int i = 0; i < 20000; ++i) text += "CoordSysTransform \"d" + std::to_string(i) + "\"\n";
+  for (int i = 0; i < 20000; ++i) text += "MediumInterface \"m" + std::to_string(i) + "\" Shape \"s\"\n";
+  const Parsed p = parseWorld(text, true);
+  EXPECT_EQ(p.diagnostics.errorCount(),
+            20001u);  // the undefined media and their number; the rest are warnings
+  EXPECT_EQ(p.diagnostics.all().size(), Diagnostics::kMaxKept);
+}
+
 TEST(Messages, LenientKeepsGoingWhereTheReferenceOnlyComplains) {
   Parsed p = parse(
       "Shape \"sphere\"\nWorldBegin\nFilm \"image\"\nMediumInterface \"m\" \"\"\nShape \"disk\"\n"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace pbrtmedia {
 namespace {
 
@@ -41,6 +43,21 @@ TEST(NameScope, ManySnapshotsAllAnswerRightly) {
     }
   }
   EXPECT_EQ(NameScope::names(snapshots.back(), Kind::Materials).size(), 100u);
+}
+
+TEST(NameScope, LocalDefinitionsOverManyGlobalOnesCostLittle) {
+  // 10^4 global names and 10^5 definitions on top of them: quadratic cost would take minutes here.
+  NameScope::Ptr global;
+  for (std::uint32_t i = 0; i < 10000; ++i)
+    global = NameScope::with(global, Kind::Materials, std::to_string(i), i);
+  for (std::uint32_t i = 0; i < 100000; ++i) {
+    const NameScope::Ptr local = NameScope::with(global, Kind::Materials, "local", i);
+    ASSERT_EQ(NameScope::find(local, Kind::Materials, "local"), i);
+  }
+  EXPECT_EQ(NameScope::find(global, Kind::Materials, "local"), std::nullopt);
+  const auto names = NameScope::names(global, Kind::Materials);
+  EXPECT_EQ(names.size(), 10000u);
+  EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
 }
 
 }  // namespace
