@@ -102,10 +102,13 @@ inline std::unique_ptr<const LightSelector> uniformSelector(const Scene& scene) 
 inline std::unique_ptr<Integrator> makePath(const Scene& scene, PathParams params = {}) {
   return std::make_unique<PathIntegrator>(scene, params, uniformSelector(scene));
 }
+/// Outside of everything: where tests without a camera have theirs.
+inline constexpr Point3f kFarAway{50, 60, 70};
+
 inline std::unique_ptr<Integrator> makeVolPath(const Scene& scene, PathParams params = {},
                                                std::optional<const Medium*> camera = nullptr) {
   return std::make_unique<VolPathIntegrator>(scene, params, uniformSelector(scene),
-                                             CameraMedium(scene, {}, 0, camera));
+                                             CameraMedium(scene, kFarAway, 0, camera));
 }
 
 inline Ray rayOf(Point3f o, Vector3f d) {
