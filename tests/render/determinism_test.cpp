@@ -49,7 +49,7 @@ TEST_P(Determinism, AnotherSeedGivesAnotherImage) {
 INSTANTIATE_TEST_SUITE_P(AllSamplers, Determinism,
                          testing::Values("random", "stratified", "halton", "sobol", "02sequence",
                                          "maxmindist"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& value) { return std::string(value.param); });
 
 }  // namespace
 }  // namespace pbrtmedia::test

@@ -65,8 +65,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Parity,
                          testing::Values("2d-checkerboard", "cornell-box", "cylinder", "depth-of-field",
                                          "glass", "killeroo-simple", "projection", "smoke", "spotfog",
                                          "uber"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& value) {
+                           std::string name = value.param;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });

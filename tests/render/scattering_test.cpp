@@ -71,10 +71,10 @@ TEST_P(ConstantFurnace, SingleScatteringUnderADistantLightHasItsClosedForm) {
 
 INSTANTIATE_TEST_SUITE_P(AllStorages, ConstantFurnace,
                          testing::Values(Storage::Homogeneous, Storage::OneVoxel, Storage::Grid64),
-                         [](const auto& info) {
-                           return info.param == Storage::Homogeneous ? "Homogeneous"
-                                  : info.param == Storage::OneVoxel  ? "OneVoxel"
-                                                                     : "Grid64";
+                         [](const auto& value) {
+                           return value.param == Storage::Homogeneous ? "Homogeneous"
+                                  : value.param == Storage::OneVoxel  ? "OneVoxel"
+                                                                      : "Grid64";
                          });
 
 TEST(WhiteFurnace, TestSeesAbsorption) {

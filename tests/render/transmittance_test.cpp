@@ -77,10 +77,10 @@ TEST_P(ConstantMedium, IsSeamlessBetweenTwoSlabsThatShareAFace) {
 
 INSTANTIATE_TEST_SUITE_P(AllStorages, ConstantMedium,
                          testing::Values(Storage::Homogeneous, Storage::OneVoxel, Storage::Grid64),
-                         [](const auto& info) {
-                           return info.param == Storage::Homogeneous ? "Homogeneous"
-                                  : info.param == Storage::OneVoxel  ? "OneVoxel"
-                                                                     : "Grid64";
+                         [](const auto& value) {
+                           return value.param == Storage::Homogeneous ? "Homogeneous"
+                                  : value.param == Storage::OneVoxel  ? "OneVoxel"
+                                                                      : "Grid64";
                          });
 
 TEST(GridBorder, FadesOverTheOuterHalfVoxelByDefault) {

@@ -26,7 +26,7 @@ struct RenderSettings {
   std::uint64_t seed = 0;
   unsigned threads = 0;
   int tileSize = 16;
-  std::optional<std::int64_t> samplesPerPixel;
+  std::optional<std::int64_t> samplesPerPixel{};
 };
 
 struct Rendered {
