@@ -100,18 +100,20 @@ class RenderLoop {
   }
 
  private:
-  /// Under a time limit the first passes are small, so that the whole film gets samples before time runs out.
+  /// Where the render may be stopped early the first passes are small, so that the whole film gets samples soon.
   std::int64_t passSize(int pass) const {
     if (options_.samplesPerPass) return std::max(1, *options_.samplesPerPass);
     const auto perSample = static_cast<std::size_t>(film_.sampleBounds().area()) * sizeof(SamplePass::Sample);
     const auto byMemory = static_cast<std::int64_t>(std::max<std::size_t>(1, kPassBytes / perSample));
-    if (options_.timeLimit == std::numeric_limits<double>::infinity()) return byMemory;
+    if (!isTimed() && !options_.stop) return byMemory;
     return std::min(byMemory, std::int64_t{1} << std::min(pass, 30));
   }
 
+  bool isTimed() const { return options_.timeLimit < std::numeric_limits<double>::infinity(); }
+
   bool shouldStop() const {
     if (options_.stop && options_.stop->load(std::memory_order_relaxed)) return true;
-    return watch_.seconds() >= options_.timeLimit;
+    return isTimed() && watch_.seconds() >= options_.timeLimit;
   }
 
   RenderProgress progress() const {
