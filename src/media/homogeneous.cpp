@@ -37,6 +37,8 @@ Rgb HomogeneousMedium::transmittance(const Segment& segment, Rng&, RenderCounter
 }
 
 FreeFlight HomogeneousMedium::sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters&) const {
+  // A medium of nothing takes no random number: its boundaries leave the image as it is, bit for bit.
+  if (sigmaT_.isBlack()) return {};
   const double length = segment.length();
   const std::size_t channel = grey_ ? 0 : rng.uniformInt(3);
   const double rate = sigmaT_[channel];

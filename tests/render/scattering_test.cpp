@@ -86,11 +86,13 @@ TEST(WhiteFurnace, TestSeesAbsorption) {
 }
 
 TEST(EmptyShells, ChangeNothingAtAll) {
+  // (The spatial strategy would choose lights by a grid over all surfaces, shells included.)
   // 200 spheres without material and medium around a lit ball and a smoke box, depth limit 3.
   const std::string head =
-      "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24\nSampler \"halton\" \"integer "
-      "pixelsamples\" 16\n"
-      "Integrator \"volpath\" \"integer maxdepth\" 3\nLookAt 0 0 -12  0 0 0  0 1 0\nCamera \"perspective\" "
+      "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"
+      "Sampler \"halton\" \"integer pixelsamples\" 8\n"
+      "Integrator \"volpath\" \"integer maxdepth\" 3 \"string lightsamplestrategy\" \"uniform\"\nLookAt 0 0 "
+      "-12  0 0 0  0 1 0\nCamera \"perspective\" "
       "\"float fov\" 22\n"
       "WorldBegin\n" +
       kWhiteEnvironment + "LightSource \"point\" \"point from\" [ 3 4 -5 ] \"rgb I\" [ 20 10 5 ]\n" +
