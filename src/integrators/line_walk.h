@@ -22,6 +22,13 @@ class LineWalk {
   LineWalk(const Scene& scene, const Ray& ray, const Exclusions& exclusions)
       : scene_(scene), ray_(ray), fixed_(exclusions), exclusions_(exclusions) {}
 
+  /// The nearest of the hits to come, without choosing among those that coincide with it: where the stretch
+  /// before them ends. What lies beyond is not looked for yet, which saves a query where the path ends on the
+  /// way.
+  std::optional<SceneHit> peek(std::uint64_t& queries) {
+    if (ahead_.empty() && !fetch(queries)) return std::nullopt;
+    return ahead_.front();
+  }
   /// The next hit; none when there is no further one before ray.tMax. `queries`: a counter of ray queries.
   /// `fits(hit)`: whether a boundary may come next; asked only where several coincide.
   template <class Fits>

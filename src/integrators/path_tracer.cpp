@@ -10,8 +10,8 @@ namespace {
 /// reference 11.2).
 constexpr int kRouletteBounces = 3;
 constexpr float kLeastTermination = 0.05f;
-/// In media, paths of less weight than this are already thinned out before that bounce. What is left of such a
-/// path has little part in the variance, and an absorbing medium costs hardly more than two scatterings.
+/// In media, paths of less weight than this are already thinned out before that bounce. What is left of such
+/// a path has little part in the variance, and an absorbing medium costs hardly more than two scatterings.
 constexpr float kMediumRouletteWeight = 0.03f;
 
 BoundaryPlane planeAt(const SurfaceInteraction& si, Vector3f toward) {
@@ -62,17 +62,18 @@ PathTracer::Event PathTracer::travel() {
   };
   double t = 0;
   for (;;) {
-    const std::optional<SceneHit> hit = walk.next(counters_.rays, fits);
-    const double tEnd = hit ? std::max<double>(t, hit->t()) : kInfinity;
-    if (!hit && setup_.media) setup_.media->escape(state_, counters_);
+    const std::optional<SceneHit> nearest = walk.peek(counters_.rays);
+    const double tEnd = nearest ? std::max<double>(t, nearest->t()) : kInfinity;
+    if (!nearest && setup_.media) setup_.media->escape(state_, counters_);
     if (seesOnlyEmission()) {
-      const bool blocked = hit && hit->primitive->material && !hit->isEmitter();
-      if (blocked || (!hit && setup_.scene.infiniteLights().empty())) return Event::End;
+      const bool blocked = nearest && nearest->primitive->material && !nearest->isEmitter();
+      if (blocked || (!nearest && setup_.scene.infiniteLights().empty())) return Event::End;
     }
     if (!state_.isVacuum()) {
       Event event = Event::End;
-      if (!passMedium(t, tEnd, hit ? &*hit : nullptr, start, event)) return event;
+      if (!passMedium(t, tEnd, nearest ? &*nearest : nullptr, start, event)) return event;
     }
+    const std::optional<SceneHit> hit = walk.next(counters_.rays, fits);
     if (!hit) {
       collectBackground();
       return Event::End;
@@ -175,8 +176,8 @@ bool PathTracer::scatterOnSurface() {
 bool PathTracer::scatterInMedium() {
   ++counters_.mediumScatterings;
   samples_.startVertex(bounces_);
-  // A phase function samples a uniform light perfectly, but not what dims it on the way: where light sampling adds
-  // a second, independent look through the medium, it pays (variance and time change by like factors).
+  // A phase function samples a uniform light perfectly, but not what dims it on the way: where light sampling
+  // adds a second, independent look through the medium, it pays (variance and time change by like factors).
   ownsUniformLights_ = false;
   lightMedium();
   const PhaseFunction::Sample sample = medium_.phase->sample(-ray_.d, samples_.get2D());

@@ -29,15 +29,17 @@ Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const S
   double t = 0;
   const auto fits = [&](const SceneHit& h) { return tracker.fits(state, h, scene.surface(h, ray), ray.d); };
   for (;;) {
-    const std::optional<SceneHit> hit = walk.next(counters.shadowRays, fits);
-    if (hit && hit->primitive->material) return {};
-    if (!hit && ray.tMax == kInfinity) tracker.escape(state, counters);
-    const double tEnd = std::max<double>(t, hit ? hit->t() : ray.tMax);
+    const std::optional<SceneHit> nearest = walk.peek(counters.shadowRays);
+    if (nearest && nearest->primitive->material) return {};
+    if (!nearest && ray.tMax == kInfinity) tracker.escape(state, counters);
+    const double tEnd = std::max<double>(t, nearest ? nearest->t() : ray.tMax);
     if (!state.isVacuum()) {
       product *= MediaTracker::transmittance(state, ray, t, tEnd, rng, counters);
       if (product.isBlack()) return product;
     }
+    const std::optional<SceneHit> hit = walk.next(counters.shadowRays, fits);
     if (!hit) return product;
+    if (hit->primitive->material) return {};
     if (!hit->primitive->media.same()) {
       tracker.cross(state, *hit, scene.surface(*hit, ray), ray.d, counters, log);
     }
