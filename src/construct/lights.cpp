@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "construct/plugins.h"
 #include "image/image.h"
@@ -129,7 +130,7 @@ std::optional<LightPlan> readLight(LightDescription& light, bool quick, Diagnost
     return std::nullopt;
   }
   LightPlan plan = plugin->read({in, light.ctm->start, quick});
-  const bool readsFile = in.has(ParamKind::String, "mapname");
+  const bool readsFile = std::as_const(light.params).find(ParamKind::String, "mapname") != nullptr;
   in.reportUnused();
   LightPlan located = [plan = std::move(plan), location = light.location, context = in.context()] {
     return builtAt(location, context, plan);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "construct/materials.h"
 
+#include <algorithm>
 #include <array>
 
 #include "construct/plugins.h"
@@ -298,6 +299,10 @@ const Material* Materials::buildShared(std::int32_t index) {
     --nesting_;
   }
   return shared_[i];
+}
+
+std::size_t Materials::builtCount() const {
+  return shared_.size() - static_cast<std::size_t>(std::count(shared_.begin(), shared_.end(), nullptr));
 }
 
 const Material* Materials::build(const Use& use) {

@@ -41,7 +41,8 @@ class Materials {
   const Material* keep(std::unique_ptr<Material> material);
 
   std::size_t definedCount() const { return plans_.size(); }
-  std::size_t builtCount() const { return built_.size(); }
+  /// Of those defined; the default and those of single shapes do not count.
+  std::size_t builtCount() const;
   std::vector<std::unique_ptr<Material>> takeBuilt() { return std::move(built_); }
 
  private:

@@ -97,6 +97,7 @@ void WorldBuilder::buildMedia(SceneBuilder& builder) {
       report_.push_back("medium \"" + scene_.media[i].name + "\": not used, left out");
       continue;
     }
+    if (!mediumPlans_[i]) continue;  // an unknown type with --lenient: vacuum, as in PBRT-v3
     usesMedia_ = true;
     if (!withMedia_) continue;
     media_[i] = builder.own((*mediumPlans_[i])());

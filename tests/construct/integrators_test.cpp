@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/integrators.h"
+
+#include "construct/probe.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+/// Two mirrors and two walls that face each other, under three lights.
+const std::string kRest =
+    "\nFilm \"image\" \"integer xresolution\" 6 \"integer yresolution\" 6 "
+    "Sampler \"random\" \"integer pixelsamples\" 4 Translate 0 0 1.5 Camera \"perspective\" WorldBegin "
+    "LightSource \"point\" \"point from\" [ 0 0.5 0 ] LightSource \"infinite\" "
+    "LightSource \"point\" \"point from\" [ 0.9 0 0 ] \"rgb I\" [ 9 3 1 ] "
+    "Material \"matte\" \"rgb Kd\" [ 0.9 0.9 0.9 ] "
+    "Shape \"cylinder\" \"float zmin\" -3 \"float zmax\" 3 "
+    "AttributeBegin Material \"mirror\" Shape \"disk\" \"float height\" 2 "
+    "Shape \"disk\" \"float height\" -2 AttributeEnd WorldEnd";
+Attempt with(const std::string& integrator) { return attempt(integrator + kRest); }
+
+TEST(ConstructIntegrator, EveryParameterHasItsEffect) {
+  std::vector<Effect> effects{
+      {"Integrator \"directlighting\"", "Integrator \"directlighting\" \"string strategy\" \"one\""},
+      {"Integrator \"path\"", "Integrator \"whitted\""}};
+  for (const std::string type : {"path", "volpath", "directlighting", "whitted"}) {
+    const std::string integrator = "Integrator \"" + type + '"';
+    effects.push_back({integrator, integrator + " \"integer maxdepth\" 1"});
+    effects.push_back({integrator, integrator + " \"integer pixelbounds\" [ 1 3 1 4 ]"});
+  }
+  for (const std::string type : {"path", "volpath"}) {
+    const std::string deep = "Integrator \"" + type + "\" \"integer maxdepth\" 12";
+    effects.push_back({deep, deep + " \"float rrthreshold\" 0"});
+    effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"uniform\""});
+    effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"power\""});
+  }
+  expectEffects(effects, with, rendered);
+  expectSame({{"",
+               "Integrator \"path\" \"integer maxdepth\" 5 \"float rrthreshold\" 1 "
+               "\"string lightsamplestrategy\" \"spatial\""},
+              {"Integrator \"directlighting\"",
+               "Integrator \"directlighting\" \"string strategy\" \"all\" \"integer maxdepth\" 5"}},
+             with, rendered);
+}
+
+TEST(ConstructIntegrator, SaysWhatIsWrongAndWhere) {
+  expectMistakes(
+      {{"Integrator \"volpaht\"", "Integrator: unknown type \"volpaht\"; did you mean \"volpath\"?",
+        "t.pbrt:1:12"},
+       {"Integrator \"bdpt\"", "unknown type \"bdpt\"", "t.pbrt:1:12"},
+       {"Integrator \"path\" \"integer maxdepth\" -1", "\"maxdepth\": found -1, expected in [0, ", ""},
+       {"Integrator \"path\" \"float maxdepth\" 5", "found type float, expected integer", "t.pbrt:1:19"},
+       {"Integrator \"path\" \"float rrthreshold\" -1", "expected >= 0", ""},
+       {"Integrator \"path\" \"string lightsamplestrategy\" \"pwoer\"",
+        "unknown lightsamplestrategy \"pwoer\"; did you mean \"power\"?", "t.pbrt:1:48"},
+       {"Integrator \"directlighting\" \"string strategy\" \"each\"",
+        "unknown strategy \"each\"; known: ", ""},
+       {"Integrator \"whitted\" \"float rrthreshold\" 1", "unknown parameter \"rrthreshold\"", ""},
+       {"Integrator \"path\" \"integer pixelbounds\" [ 0 1 ]", "found 2 numbers, expected 4: x0 x1 y0 y1",
+        ""},
+       {"Integrator \"path\" \"integer pixelbounds\" [ 2 1 0 4 ]", "the rectangle holds no pixel", ""},
+       {"Integrator \"path\" \"integer pixelbounds\" [ 100 200 0 4 ]", "lies outside the rendered image",
+        "t.pbrt:1:1"}},
+      with);
+  EXPECT_TRUE(attempt("Integrator \"x\"" + kRest, {.lenient = true}).failsWith("nothing can be rendered"));
+  EXPECT_TRUE(attempt("Integrator \"path\" \"string lightsamplestrategy\" \"x\"" + kRest, {.lenient = true})
+                  .warns("unknown lightsamplestrategy"));
+}
+
+TEST(ConstructIntegrator, SaysThatOnlyVolpathRendersMedia) {
+  const std::string world =
+      "\nFilm \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 WorldBegin LightSource "
+      "\"infinite\" "
+      "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" MediumInterface \"m\" \"\" Shape \"sphere\" "
+      "WorldEnd";
+  for (const std::string type : {"path", "directlighting", "whitted"}) {
+    const Attempt a = attempt("Integrator \"" + type + '"' + world);
+    EXPECT_TRUE(a.warns("does not render participating media")) << a.messages();
+    EXPECT_EQ(placeOf(a.find(Severity::Warning, "media")), "t.pbrt:1:1");
+  }
+  EXPECT_TRUE(attempt("Integrator \"volpath\"" + world).isSilent());
+}
+
+TEST(ConstructAccelerator, ChecksWhatHasNoEffect) {
+  for (const std::string good :
+       {"Accelerator \"bvh\" \"string splitmethod\" \"hlbvh\" \"integer maxnodeprims\" 8",
+        "Accelerator \"kdtree\" \"integer intersectcost\" 8 \"integer traversalcost\" 2 \"float emptybonus\" "
+        "0.1 "
+        "\"integer maxprims\" 3 \"integer maxdepth\" 9"}) {
+    EXPECT_TRUE(with(good).isSilent()) << with(good).messages();
+  }
+  expectMistakes(
+      {{"Accelerator \"bhv\"", "Accelerator: unknown type \"bhv\"; did you mean \"bvh\"?", "t.pbrt:1:13"},
+       {"Accelerator \"bvh\" \"string splitmethod\" \"x\"", "unknown splitmethod \"x\"", ""},
+       {"Accelerator \"bvh\" \"integer maxnodeprims\" 0", "expected >= 1", ""},
+       {"Accelerator \"kdtree\" \"integer maxnodeprims\" 1", "unknown parameter", ""}},
+      with);
+  const Attempt lenient = attempt("Accelerator \"bhv\"" + kRest, {.lenient = true});
+  EXPECT_TRUE(lenient.warns("unknown type")) << lenient.messages();
+}
+
+}  // namespace
+}  // namespace pbrtmedia::test

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/media.h"
+
+#include "construct/probe.h"
+#include "media/presets.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+const std::string kGrid =
+    "\"string type\" \"heterogeneous\" \"integer nx\" 2 \"integer ny\" 1 \"integer nz\" 3 "
+    "\"float density\" [ 0.1 0.2 0.3 0.4 0.5 0.6 ] ";
+const std::string kHomogeneous = "\"string type\" \"homogeneous\" ";
+
+/// A medium "m" in a sphere; MakeNamedMedium stands in line 2, column 1.
+Attempt with(const std::string& parameters) {
+  return attemptWorld("MakeNamedMedium \"m\" " + parameters +
+                      "\nMediumInterface \"m\" \"\" Material \"\" Shape \"sphere\"");
+}
+Attempt under(const std::string& transformations) {
+  return attemptWorld(transformations + " MakeNamedMedium \"m\" " + kGrid +
+                      "\nIdentity MediumInterface \"m\" \"\" Material \"\" Shape \"sphere\"");
+}
+
+TEST(ConstructMedium, EveryParameterHasItsEffect) {
+  std::vector<Effect> effects;
+  for (const std::string& type : {kHomogeneous, kGrid}) {
+    for (const std::string p :
+         {"\"rgb sigma_a\" [ 1 2 3 ]", "\"rgb sigma_s\" [ 1 2 3 ]", "\"float scale\" 0.1", "\"float g\" 0.5",
+          "\"string preset\" \"Ketchup\"", "\"string overlap\" \"add\"", "\"string overlap\" \"priority\"",
+          "\"integer priority\" 3"}) {
+      effects.push_back({type, type + p});
+    }
+  }
+  for (const std::string p :
+       {"\"point p0\" [ -1 0 0 ]", "\"point p1\" [ 2 1 1 ]", "\"string border\" \"clamp\""})
+    effects.push_back({kGrid, kGrid + p});
+  effects.push_back({kGrid,
+                     "\"string type\" \"heterogeneous\" \"integer nx\" 3 \"integer ny\" 2 "
+                     "\"float density\" [ 0.1 0.2 0.3 0.4 0.5 0.6 ] "});
+  expectEffects(effects, with, media);
+  expectSame({{kHomogeneous, kHomogeneous +
+                                 "\"rgb sigma_a\" [ .0011 .0024 .014 ] \"rgb sigma_s\" [ 2.55 3.21 3.77 ] "
+                                 "\"float g\" 0 \"float scale\" 1 \"string overlap\" \"boundary\""},
+              {kHomogeneous, kHomogeneous + "\"string preset\" \"Wholemilk\""},
+              {kHomogeneous + "\"integer priority\" 2",
+               kHomogeneous + "\"string overlap\" \"priority\" \"integer priority\" 2"},
+              {kHomogeneous + "\"string preset\" \"Skin1\" \"rgb sigma_a\" [ 1 2 3 ]",
+               kHomogeneous + "\"rgb sigma_s\" [ 0.74 0.88 1.01 ] \"rgb sigma_a\" [ 1 2 3 ]"},
+              {kGrid, kGrid + "\"point p0\" [ 0 0 0 ] \"point p1\" [ 1 1 1 ] \"string border\" \"zero\""}},
+             with, media);
+}
+
+TEST(ConstructMedium, KnowsEveryPreset) {
+  for (const MediumPreset& preset : mediumPresets()) {
+    const Attempt a = with(kHomogeneous + "\"string preset\" \"" + std::string(preset.name) + '"');
+    EXPECT_TRUE(a.isSilent()) << preset.name << a.messages();
+  }
+}
+
+TEST(ConstructMedium, AGridStandsWhereItsDirectiveStands) {
+  expectEffects({{"", "Translate 0 0 0.4"}, {"", "Scale 2 1 1"}, {"", "Rotate 30 1 0 0"}}, under, media);
+  EXPECT_TRUE(under("ActiveTransform EndTime Translate 0 0 1").warns("media do not move"));
+}
+
+TEST(ConstructMedium, SaysWhatIsWrongAndWhere) {
+  expectMistakes(
+      {{"\"string type\" \"homogenous\"",
+        "medium \"m\": unknown type \"homogenous\"; did you mean \"homogeneous\"?", "t.pbrt:2:35"},
+       {kHomogeneous + "\"float sigma_s\" 1", "\"sigma_s\": found type float, expected rgb", ""},
+       {kHomogeneous + "\"rgb sigma_a\" [ 1 -1 1 ]",
+        "\"sigma_a\": found a negative coefficient, expected numbers >= 0", ""},
+       {kHomogeneous + "\"float scale\" -1", "expected >= 0", ""},
+       {kHomogeneous + "\"float g\" 1", "\"g\": found 1, expected in (-1, 1)", ""},
+       {kHomogeneous + "\"string preset\" \"Wholemlik\"",
+        "unknown preset \"Wholemlik\"; did you mean \"Wholemilk\"?", ""},
+       {kHomogeneous + "\"string overlap\" \"adds\"", "unknown overlap \"adds\"; did you mean \"add\"?", ""},
+       {kHomogeneous + "\"string overlap\" \"add\" \"integer priority\" 1",
+        "needs \"string overlap\" \"priority\"", ""},
+       {kHomogeneous + "\"float priority\" 1", "found type float, expected integer", ""},
+       {kHomogeneous + "\"integer nx\" 1", "unknown parameter \"nx\"", ""},
+       {"\"string type\" \"heterogeneous\"", "parameter \"float density\" is missing", "t.pbrt:2:1"},
+       {"\"string type\" \"heterogeneous\" \"integer nx\" 2 \"float density\" [ 1 1 1 ]",
+        "found 3 values, expected nx*ny*nz = 2*1*1 = 2", ""},
+       {"\"string type\" \"heterogeneous\" \"integer nx\" 2 \"float density\" [ 1 -1 ]",
+        "voxel (1, 0, 0) is negative: -1", ""},
+       {"\"string type\" \"heterogeneous\" \"integer nz\" 0 \"float density\" [ 1 ]",
+        "found 0, expected in [1, ", ""},
+       {kGrid + "\"point p1\" [ 1 0 1 ]", "the box is flat: p0 and p1 agree in y", ""},
+       {kGrid + "\"string border\" \"clmap\"", "unknown border \"clmap\"; did you mean \"clamp\"?", ""}},
+      with);
+}
+
+TEST(ConstructMedium, LenientTakesTheDefaultsOfAnUnknownPreset) {
+  const Attempt a = attemptWorld(
+      "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string preset\" \"Nectar\" MediumInterface "
+      "\"m\" \"\" "
+      "Material \"\" Shape \"sphere\"",
+      {.lenient = true});
+  ASSERT_TRUE(a.warns("unknown preset")) << a.messages();
+  EXPECT_EQ(media(a), media(with(kHomogeneous)));
+  const Attempt vacuum = attemptWorld(
+      "MakeNamedMedium \"m\" \"string type\" \"cloud\" MediumInterface \"m\" \"\" Shape \"sphere\"",
+      {.lenient = true});
+  ASSERT_TRUE(vacuum.warns("unknown type \"cloud\"")) << vacuum.messages();
+  EXPECT_EQ(mediumOf(vacuum), nullptr) << "an unknown medium is vacuum, as in PBRT-v3";
+}
+
+}  // namespace
+}  // namespace pbrtmedia::test

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/shapes.h"
+
+#include "construct/probe.h"
+#include "support/temporary_folder.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+Attempt with(const std::string& shape) { return attemptWorld(shape); }
+
+/// Two triangles in the plane z = 0.
+const std::string kMesh =
+    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 -1 0 1 -1 0 1 1 0 -1 1 0 ] ";
+/// A tetrahedron.
+const std::string kCage =
+    "Shape \"loopsubdiv\" \"integer indices\" [ 0 2 1 0 1 3 1 2 3 2 0 3 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 0 "
+    "0 1 ] ";
+const std::string kField =
+    "Shape \"heightfield\" \"integer nu\" 2 \"integer nv\" 3 \"float Pz\" [ 0 .1 .2 .3 0 .1 ] ";
+const std::string kPatch =
+    "Shape \"nurbs\" \"integer nu\" 3 \"integer nv\" 2 \"integer uorder\" 3 \"integer vorder\" 2 "
+    "\"float uknots\" [ 0 0 0 1 1 1 ] \"float vknots\" [ 0 0 1 1 ] ";
+const std::string kPatchPoints = "\"point P\" [ -1 -1 0 0 -1 1 1 -1 0 -1 1 0 0 1 1 1 1 0 ] ";
+const std::string kPly =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n-1 -1 0\n1 -1 0\n0 1 0\n3 0 1 2\n";
+
+TEST(ConstructShape, EveryParameterOfQuadricsHasItsEffect) {
+  std::vector<Effect> effects;
+  const auto add = [&](const std::string& type, const std::vector<std::string>& parameters) {
+    const std::string shape = "Shape \"" + type + '"';
+    for (const std::string& p : parameters) effects.push_back({shape, shape + ' ' + p});
+    effects.push_back({shape, "Translate 0.1 0 0 " + shape});
+    effects.push_back({shape, "ReverseOrientation " + shape});
+  };
+  const std::string radius = "\"float radius\" 0.5", zmin = "\"float zmin\" -0.3",
+                    zmax = "\"float zmax\" 0.4", phimax = "\"float phimax\" 200";
+  add("sphere", {radius, zmin, zmax, phimax});
+  add("cylinder", {radius, zmin, zmax, phimax});
+  add("disk", {radius, "\"float height\" 0.3", "\"float innerradius\" 0.2", phimax});
+  add("cone", {radius, "\"float height\" 0.3", phimax});
+  add("paraboloid", {radius, "\"float zmin\" 0.3", zmax, phimax});
+  add("hyperboloid", {"\"point p1\" [ 0.2 0 -0.5 ]", "\"point p2\" [ 0.9 0.3 0.7 ]", phimax});
+  expectEffects(effects, with, surfaces);
+  expectSame(
+      {{"Shape \"sphere\"",
+        "Shape \"sphere\" \"float radius\" 1 \"float zmin\" -1 \"float zmax\" 1 \"float phimax\" 360"},
+       {"Shape \"cylinder\"", "Shape \"cylinder\" \"float radius\" 1 \"float zmin\" -1 \"float zmax\" 1"},
+       {"Shape \"disk\"", "Shape \"disk\" \"float height\" 0 \"float radius\" 1 \"float innerradius\" 0"},
+       {"Shape \"cone\"", "Shape \"cone\" \"float radius\" 1 \"float height\" 1"},
+       {"Shape \"paraboloid\"", "Shape \"paraboloid\" \"float radius\" 1 \"float zmin\" 0 \"float zmax\" 1"},
+       {"Shape \"hyperboloid\"", "Shape \"hyperboloid\" \"point p1\" [ 0 0 0 ] \"point p2\" [ 1 1 1 ]"}},
+      with, surfaces);
+}
+
+TEST(ConstructShape, EveryParameterOfMeshesHasItsEffect) {
+  expectEffects({{kMesh, kMesh + "\"normal N\" [ 0 0 1 0 .6 .8 0 0 1 0 0 1 ]"},
+                 {kMesh, kMesh + "\"vector S\" [ 0 1 0 0 1 0 0 1 0 0 1 0 ]"},
+                 {kMesh, kMesh + "\"point2 uv\" [ 0 0 1 0 1 1 0 1 ]"},
+                 {kMesh, kMesh + "\"float alpha\" 0"},
+                 {kMesh, kMesh + "\"float shadowalpha\" 0"},
+                 {kMesh, kMesh + "\"integer faceIndices\" [ 5 6 ]"},
+                 {kMesh + "\"float alpha\" 0", kMesh + "\"float shadowalpha\" 0"},
+                 {kCage, kCage + "\"integer levels\" 1"},
+                 {kCage, kCage + "\"integer nlevels\" 1"},
+                 {kField, "Scale 2 1 1 " + kField},
+                 {kPatch + kPatchPoints, kPatch + kPatchPoints + "\"float u0\" 0.2"},
+                 {kPatch + kPatchPoints, kPatch + kPatchPoints + "\"float u1\" 0.7"},
+                 {kPatch + kPatchPoints, kPatch + kPatchPoints + "\"float v0\" 0.2"},
+                 {kPatch + kPatchPoints, kPatch + kPatchPoints + "\"float v1\" 0.7"},
+                 {kPatch + kPatchPoints,
+                  kPatch + "\"float Pw\" [ -1 -1 0 1  0 -2 2 2  1 -1 0 1  -1 1 0 1  0 1 1 1  1 1 0 1 ]"}},
+                with, surfaces);
+  expectSame({{kMesh + "\"point2 uv\" [ 0 0 1 0 1 1 0 1 ]", kMesh + "\"float uv\" [ 0 0 1 0 1 1 0 1 ]"},
+              {kMesh + "\"point2 uv\" [ 0 0 1 0 1 1 0 1 ]", kMesh + "\"point2 st\" [ 0 0 1 0 1 1 0 1 ]"},
+              {kMesh + "\"point2 uv\" [ 0 0 1 0 1 1 0 1 ]", kMesh + "\"float st\" [ 0 0 1 0 1 1 0 1 ]"},
+              {kMesh + "\"point2 uv\" [ 0 0 1 0 1 1 0 1 ]",
+               kMesh + "\"point2 st\" [ 3 0 1 0 1 1 0 1 ] \"point2 uv\" [ 0 0 1 0 1 1 0 1 ]"},
+              {kMesh, kMesh + "\"float alpha\" 0.5 \"float shadowalpha\" 0.001"},
+              {kCage, kCage + "\"integer levels\" 3 \"string scheme\" \"loop\""},
+              {kPatch + kPatchPoints,
+               kPatch + kPatchPoints + "\"float u0\" 0 \"float u1\" 1 \"float v0\" 0 \"float v1\" 1"}},
+             with, surfaces);
+}
+
+TEST(ConstructShape, TexturesCutWhereTheyAreZero) {
+  const std::string texture =
+      "Texture \"a\" \"float\" \"checkerboard\" \"float uscale\" 2 \"float vscale\" 2 ";
+  expectEffects({{texture + kMesh, texture + kMesh + "\"texture alpha\" \"a\""},
+                 {texture + kMesh, texture + kMesh + "\"texture shadowalpha\" \"a\""}},
+                with, surfaces);
+}
+
+TEST(ConstructShape, SaysWhatIsWrongAndWhere) {
+  expectMistakes(
+      {{"Shape \"shpere\"", "Shape: unknown type \"shpere\"; did you mean \"sphere\"?", "t.pbrt:2:7"},
+       {"Shape \"curve\"", "unknown type \"curve\"", "t.pbrt:2:7"},
+       {"Shape \"sphere\" \"float radius\" 0", "radius: expected a finite number > 0, found 0", "t.pbrt:2:1"},
+       {"Shape \"sphere\" \"integer radius\" 1", "\"radius\": found type integer, expected float",
+        "t.pbrt:2:16"},
+       {"Shape \"sphere\" \"float raduis\" 1", "unknown parameter \"raduis\"; did you mean \"radius\"?",
+        "t.pbrt:2:16"},
+       {"Shape \"sphere\" \"float alpha\" 0", "unknown parameter \"alpha\"", ""},
+       {"Shape \"disk\" \"float phimax\" 0", "phimax: expected degrees > 0", ""},
+       {"Scale 1 0 1 Shape \"sphere\"", "Scale: the matrix has no inverse", "t.pbrt:2:1"},
+       {"Shape \"trianglemesh\"", "parameter \"integer indices\" is missing", "t.pbrt:2:1"},
+       {"Shape \"trianglemesh\"", "parameter \"point P\" is missing", "t.pbrt:2:1"},
+       {"Shape \"trianglemesh\" \"float indices\" [ 0 1 2 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 ]",
+        "\"indices\": found type float, expected integer", "t.pbrt:2:22"},
+       {"Shape \"trianglemesh\" \"integer indices\" [ 0 1 3 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 ]",
+        "\"indices\": ", ""},
+       {"Shape \"trianglemesh\" \"integer indices\" [ 0 1 -1 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 ]",
+        "\"indices\": ", ""},
+       {kMesh + "\"normal N\" [ 0 0 1 ]", "\"N\": ", ""},
+       {kMesh + "\"vector S\" [ 0 0 1 ]", "\"S\": ", ""},
+       {kMesh + "\"point2 uv\" [ 0 0 1 1 ]", "\"uv\": ", ""},
+       {kMesh + "\"float st\" [ 0 0 1 1 ]", "\"st\": ", ""},
+       {kMesh + "\"float uv\" [ 0 0 1 ]", "\"uv\": found 3 numbers, expected pairs", ""},
+       {kMesh + "\"integer faceIndices\" [ 1 ]", "\"faceIndices\": ", ""},
+       {kMesh + "\"texture alpha\" \"nil\"", "unknown float texture \"nil\"; none is defined here", ""},
+       {kCage + "\"integer levels\" -1", "\"levels\": found -1, expected in [0, ", ""},
+       {"Shape \"loopsubdiv\"", "parameter \"integer indices\" is missing", ""},
+       {"Shape \"plymesh\"", "parameter \"string filename\" is missing", "t.pbrt:2:1"},
+       {"Shape \"plymesh\" \"string filename\" \"nil.ply\"", "there is no file \"", "t.pbrt:2:35"},
+       {"Shape \"heightfield\"", "parameter \"float Pz\" is missing", "t.pbrt:2:1"},
+       {"Shape \"heightfield\" \"integer nu\" 1 \"integer nv\" 2 \"float Pz\" [ 1 2 ]",
+        "\"nu\": found 1, expected >= 2", ""},
+       {"Shape \"heightfield\" \"integer nu\" 2 \"integer nv\" 2 \"float Pz\" [ 1 2 ]",
+        "Pz: expected 4 numbers (nu * nv), found 2", "t.pbrt:2:1"},
+       {"Shape \"nurbs\"", "parameter \"float uknots\" is missing", ""},
+       {kPatch, "parameter \"point P\" or \"float Pw\" is missing", ""},
+       {kPatch + "\"point P\" [ 0 0 0 ]", "Shape \"nurbs\": ", ""},
+       {kPatch + kPatchPoints + "\"float u0\" 5", "Shape \"nurbs\": ", ""}},
+      with);
+}
+
+TEST(ConstructShape, ReadsPlyFiles) {
+  const TemporaryFolder folder;
+  folder.write("a.ply", kPly);
+  folder.write("broken.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n1\n");
+  std::string wrongIndex = kPly;
+  wrongIndex.replace(wrongIndex.rfind('2'), 1, "7");
+  folder.write("index.ply", wrongIndex);
+  const auto inFolder = [&](const std::string& shape) {
+    return attemptWorld(shape, {.folder = folder.path()});
+  };
+  const std::string ply = "Shape \"plymesh\" \"string filename\" \"a.ply\"";
+  expectSame(
+      {{ply, "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point P\" [ -1 -1 0 1 -1 0 0 1 0 ]"}},
+      inFolder, surfaces);
+  expectEffects({{ply, ply + " \"float alpha\" 0"}, {ply, ply + " \"float shadowalpha\" 0"}}, inFolder,
+                surfaces);
+  expectMistakes({{"Shape \"plymesh\" \"string filename\" \"broken.ply\"", "", ""},
+                  {"Shape \"plymesh\" \"string filename\" \"index.ply\"", "indices", ""}},
+                 inFolder);
+}
+
+TEST(ConstructShape, WarnsOfWhatAMeshLeavesOut) {
+  const Attempt a =
+      with("Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 ]");
+  EXPECT_TRUE(a.warns("\"indices\"")) << a.messages();
+  EXPECT_TRUE(with(kMesh + "\"float st\" [ 0 0 0 0 0 0 0 0 1 1 ]").warns("\"st\""));
+}
+
+TEST(ConstructShape, LenientLeavesUnknownShapesOut) {
+  const Attempt a = attemptWorld("Shape \"curve\" \"float width\" 1 Shape \"sphere\" \"float raduis\" 2",
+                                 {.lenient = true});
+  ASSERT_TRUE(a.warns("unknown type \"curve\"")) << a.messages();
+  EXPECT_TRUE(a.warns("unknown parameter \"raduis\""));
+  EXPECT_EQ(surfaces(a), surfaces(with("Shape \"sphere\"")));
+}
+
+}  // namespace
+}  // namespace pbrtmedia::test

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Objects, instances, motion, media and area lights of the world block.
+#include "construct/world_builder.h"
+
+#include <algorithm>
+
+#include "construct/probe.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+Attempt with(const std::string& world) { return attemptWorld(world); }
+
+bool reports(const Attempt& a, const std::string& fragment) {
+  return a.made && std::any_of(a.made->report.begin(), a.made->report.end(), [&](const std::string& line) {
+           return line.find(fragment) != std::string::npos;
+         });
+}
+
+const std::string kDisk = "Shape \"disk\" \"float radius\" 0.6 ";
+std::string object(const std::string& name, const std::string& content) {
+  return "ObjectBegin \"" + name + "\" " + content + " ObjectEnd ";
+}
+std::string instance(const std::string& name) { return "ObjectInstance \"" + name + "\" "; }
+std::string homogeneous(const std::string& name) {
+  return "MakeNamedMedium \"" + name + "\" \"string type\" \"homogeneous\" ";
+}
+
+TEST(ConstructWorld, AnInstanceIsTheShapeUnderBothTransformations) {
+  expectSame({{object("o", "Translate 0 0 0.25 " + kDisk) + "Translate 0.5 0 0 " + instance("o"),
+               "Translate 0.5 0 0.25 " + kDisk},
+              {object("o", kDisk) + "Scale 2 2 2 " + instance("o"), "Shape \"disk\" \"float radius\" 1.2"}},
+             with, [](const Attempt& a) {
+               Numbers n;
+               std::uint64_t queries = 0;
+               for (const Ray& ray : probingRays())
+                 n.push_back(a.made->scene->occluded(ray, 0, Exclusions{}, queries) ? 1 : 0);
+               return n;
+             });
+}
+
+TEST(ConstructWorld, InstancesNest) {
+  const std::string nested =
+      object("inner", kDisk) +
+      object("outer", "Translate 0.5 0 0 " + instance("inner") + "Translate -1 0 0 " + instance("inner"));
+  const Attempt a = with(nested + "Translate 0 0 0.5 " + instance("outer"));
+  ASSERT_TRUE(a.made) << a.messages();
+  const Attempt flat = with("Translate 0.5 0 0.5 " + kDisk + "Translate -1 0 0 " + kDisk);
+  std::uint64_t queries = 0;
+  for (const Ray& ray : probingRays()) {
+    EXPECT_EQ(a.made->scene->occluded(ray, 0, Exclusions{}, queries),
+              flat.made->scene->occluded(ray, 0, Exclusions{}, queries));
+  }
+}
+
+TEST(ConstructWorld, ObjectsThatAreNeverPlacedAreNotBuilt) {
+  const Attempt a =
+      with(object("o", homogeneous("m") + "MediumInterface \"m\" \"\" Material \"mirror\" " + kDisk) + kDisk);
+  ASSERT_TRUE(a.isSilent()) << a.messages();
+  EXPECT_TRUE(reports(a, "1 objects are never placed"));
+  EXPECT_TRUE(reports(a, "medium \"m\": not used, left out"));
+  EXPECT_TRUE(reports(a, "materials: 0 built of 1 defined"));
+}
+
+TEST(ConstructWorld, ObjectsThatMultiplyAreRefusedAndEmptyOnesCostNothing) {
+  const auto doubling = [](const std::string& core, int depth) {
+    std::string world = object("o0", core);
+    for (int i = 1; i <= depth; ++i) {
+      const std::string inner = instance("o" + std::to_string(i - 1));
+      world += object("o" + std::to_string(i), inner + inner);
+    }
+    return world + instance("o" + std::to_string(depth));
+  };
+  EXPECT_TRUE(with(doubling(kDisk, 60)).failsWith("nested objects multiply to"));
+  EXPECT_TRUE(with(doubling("", 60)).made.has_value()) << "2^60 times nothing";
+  EXPECT_TRUE(with(doubling(kDisk, 4)).made.has_value());
+  std::string chain = object("o0", kDisk);
+  for (int i = 1; i <= 3000; ++i)
+    chain += object("o" + std::to_string(i), instance("o" + std::to_string(i - 1)));
+  EXPECT_TRUE(with(chain + instance("o3000")).failsWith("nests objects 3001 deep, expected at most 1000"));
+}
+
+// ---- Motion
+
+const std::string kMove = "ActiveTransform EndTime Translate 2 0 0 ActiveTransform All ";
+
+/// Whether a ray along -z at x, at a time, is blocked.
+bool blocked(const Attempt& a, float x, float time) {
+  std::uint64_t queries = 0;
+  return a.made->scene->occluded({.o = {x, 0.01f, 5}, .d = {0, 0, -1}, .tMax = kInfinity, .time = time}, 0,
+                                 Exclusions{}, queries);
+}
+
+TEST(ConstructWorld, ShapesAndInstancesMove) {
+  for (const std::string& world :
+       {kMove + kDisk, object("o", kDisk) + kMove + instance("o"), object("o", kMove + kDisk) + instance("o"),
+        object("i", kMove + kDisk) + object("o", instance("i")) + instance("o")}) {
+    const Attempt a = with(world);
+    ASSERT_TRUE(a.made) << a.messages();
+    EXPECT_TRUE(blocked(a, 0, 0)) << world;
+    EXPECT_FALSE(blocked(a, 0, 1)) << world;
+    EXPECT_TRUE(blocked(a, 1, 0.5f)) << world;
+    EXPECT_TRUE(blocked(a, 2, 1)) << world;
+  }
+  const Attempt both = with(object("o", kMove + kDisk) + "Translate 0 0 1 " + kMove + instance("o"));
+  EXPECT_TRUE(blocked(both, 4, 1)) << "the motions of shape and instance add";
+  EXPECT_FALSE(blocked(both, 2, 1));
+}
+
+TEST(ConstructWorld, TransformTimesBoundTheMotion) {
+  const Attempt a = attemptWorld(kMove + kDisk, {}, "TransformTimes 0.5 1");
+  ASSERT_TRUE(a.isSilent()) << a.messages();
+  EXPECT_TRUE(blocked(a, 0, 0.4f));
+  EXPECT_TRUE(blocked(a, 1, 0.75f));
+}
+
+TEST(ConstructWorld, AMovingShapeTakesItsMediumAlong) {
+  // A grid in [4, 5] x [0, 1]^2 of the world; the shape around it starts there.
+  const std::string grid =
+      "Translate 4 0 0 MakeNamedMedium \"m\" \"string type\" \"heterogeneous\" \"string border\" \"clamp\" "
+      "\"float density\" [ 1 ] \"rgb sigma_a\" [ 1 1 1 ] \"rgb sigma_s\" [ 0 0 0 ] MediumInterface \"m\" "
+      "\"\" ";
+  const Attempt a = with(grid + kMove + "Translate 0.5 0.5 0.5 Shape \"sphere\"");
+  ASSERT_TRUE(a.made) << a.messages();
+  for (const float time : {0.0f, 0.5f, 1.0f}) {
+    const float x = 4.5f + 2 * time;
+    const Ray ray{.o = {x, 0.5f, 9}, .d = {0, 0, -1}, .tMax = kInfinity, .time = time};
+    std::uint64_t queries = 0;
+    const auto hit = a.made->scene->closest(ray, 0, Exclusions{}, queries);
+    ASSERT_TRUE(hit) << time;
+    ASSERT_NE(hit->placement, nullptr);
+    const Segment inMedium = hit->placement->toObject({ray.o, ray.d, 0, 18}, time);
+    Rng rng(1);
+    RenderCounters counters;
+    double sum = 0;
+    constexpr int kCount = 10000;
+    for (int i = 0; i < kCount; ++i)
+      sum += hit->primitive->media.inside->transmittance(inMedium, rng, counters).r;
+    const double truth = std::exp(-1.0);  // one unit of extinction 1; an estimate has a variance below 1/4
+    EXPECT_LT(std::abs(sum / kCount - truth), 5 * 0.5 / std::sqrt(kCount)) << time;
+    EXPECT_NEAR(inMedium.o.x, 4.5f, 1e-5f) << time;
+  }
+}
+
+// ---- Area lights
+
+TEST(ConstructWorld, EachTriangleOfAnEmitterIsALight) {
+  const Attempt a = with(
+      "AreaLightSource \"diffuse\" Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] "
+      "\"point P\" [ 0 0 0 1 0 0 1 1 0 0 1 0 ] AreaLightSource \"\" " +
+      kDisk);
+  ASSERT_TRUE(a.isSilent()) << a.messages();
+  EXPECT_EQ(a.made->scene->lights().size(), 3u) << "two triangles and the point light; the disk is dark";
+}
+
+TEST(ConstructWorld, AreaLightsOnMovingShapesAndInObjectsWarn) {
+  const Attempt moving = with("AreaLightSource \"diffuse\" " + kMove + kDisk);
+  ASSERT_TRUE(moving.warns("area lights on moving shapes are ignored")) << moving.messages();
+  EXPECT_EQ(moving.made->scene->lights().size(), 1u);
+  const Attempt inObject = with(object("o", "AreaLightSource \"diffuse\" " + kDisk) + instance("o"));
+  ASSERT_TRUE(inObject.warns("is seen but lights nothing")) << inObject.messages();
+  EXPECT_EQ(inObject.made->scene->lights().size(), 1u);
+  EXPECT_TRUE(inObject.made->scene->hasVisibleEmitters());
+}
+
+// ---- Media
+
+TEST(ConstructWorld, OnlyMediaThatSomethingUsesAreBuilt) {
+  const Attempt a =
+      with(homogeneous("used") + homogeneous("idle") + "MediumInterface \"used\" \"\" Shape \"sphere\"");
+  ASSERT_TRUE(a.isSilent()) << a.messages();
+  EXPECT_TRUE(reports(a, "medium \"idle\": not used, left out"));
+  EXPECT_TRUE(reports(a, "medium \"used\": "));
+  EXPECT_FALSE(reports(a, "medium \"used\": not used"));
+}
+
+TEST(ConstructWorld, BothSidesOfAShapeHaveTheirMedia) {
+  const Attempt a =
+      with(homogeneous("in") + homogeneous("out") + "MediumInterface \"in\" \"out\" Shape \"sphere\"");
+  ASSERT_TRUE(a.made) << a.messages();
+  std::uint64_t queries = 0;
+  for (const Ray& ray : probingRays()) {
+    const auto found = a.made->scene->closest(ray, 0, Exclusions{}, queries);
+    if (!found) continue;
+    EXPECT_EQ(found->primitive->media.inside->name(), "in");
+    EXPECT_EQ(found->primitive->media.outside->name(), "out");
+  }
+  EXPECT_TRUE(a.made->scene->hasMediumBoundaries());
+}
+
+TEST(ConstructWorld, SurfacesThatChangeNothingAreLeftOut) {
+  const Attempt a =
+      with(homogeneous("m") + "Material \"none\" " + kDisk + "MediumInterface \"m\" Shape \"sphere\"");
+  ASSERT_TRUE(a.made) << a.messages();
+  EXPECT_TRUE(surfaces(a) == surfaces(with("")));
+}
+
+}  // namespace
+}  // namespace pbrtmedia::test
