@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-2-Clause
 # Sourced by ./render and ./check: installs what is missing, then configures and builds one preset.
 
+# One compiler cache for every checkout of this project on the machine.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=time_macros
+
 # say <text>: one line about what is being done, on standard error.
 say() { printf '\033[1m==>\033[0m %s\n' "$*" >&2; }
 

@@ -100,7 +100,8 @@ class RenderLoop {
   }
 
  private:
-  /// Where the render may be stopped early the first passes are small, so that the whole film gets samples soon.
+  /// Where the render may be stopped early the first passes are small, so that the whole film gets samples
+  /// soon.
   std::int64_t passSize(int pass) const {
     if (options_.samplesPerPass) return std::max(1, *options_.samplesPerPass);
     const auto perSample = static_cast<std::size_t>(film_.sampleBounds().area()) * sizeof(SamplePass::Sample);
