@@ -7,6 +7,7 @@
 
 #include "image/image.h"
 #include "support/process.h"
+#include "support/temporary_folder.h"
 
 namespace pbrtmedia::test {
 namespace {
