@@ -15,9 +15,9 @@ namespace {
 
 // Words that PBRT-v3 accepts with one dash as well.
 constexpr std::string_view kLongNames[] = {
-    "nthreads", "outfile",     "cropwindow",  "quick",  "quiet",   "cat",     "toply",
-    "logdir",   "logtostderr", "minloglevel", "v",      "help",    "spp",     "seed",
-    "stats",    "progress",    "time",        "strict", "lenient", "verbose", "tile-size"};
+    "nthreads",    "outfile",     "cropwindow", "quick",   "quiet",     "cat",       "toply",      "logdir",
+    "logtostderr", "minloglevel", "v",          "help",    "spp",       "seed",      "stats",      "progress",
+    "time",        "strict",      "lenient",    "verbose", "tile-size", "pixeltype", "compression"};
 
 /// "-quick" and "-nthreads=2" become "--quick" and "--nthreads=2"; numbers and file names stay.
 std::string normalised(const std::string& word) {
@@ -81,6 +81,19 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
                  "edge of the square of pixels one thread takes (default 16)")
       ->check(CLI::Range(1, 4096))
       ->type_name("PIXELS")
+      ->group(render);
+
+  const std::map<std::string, PixelType> pixelTypes = {{"half", PixelType::Half},
+                                                       {"float", PixelType::Float}};
+  app.add_option("--pixeltype", options.write.pixelType, "half (default) or float numbers in EXR files")
+      ->transform(CLI::CheckedTransformer(pixelTypes))
+      ->type_name("TYPE")
+      ->group(render);
+  const std::map<std::string, ExrCompression> compressions = {
+      {"none", ExrCompression::None}, {"zip", ExrCompression::Zip}, {"piz", ExrCompression::Piz}};
+  app.add_option("--compression", options.write.compression, "of EXR files: zip (default), piz or none")
+      ->transform(CLI::CheckedTransformer(compressions))
+      ->type_name("NAME")
       ->group(render);
 
   const std::string checks = "Checks";

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "image/image.h"
+
 namespace pbrtmedia {
 
 enum class ProgressMode { Auto, Plain, None };
@@ -31,6 +33,7 @@ struct Options {
   ProgressMode progress = ProgressMode::Auto;
   std::optional<double> timeLimit;  ///< seconds of rendering
   int tileSize = 16;
+  WriteOptions write;       ///< how EXR files are stored
   std::string commandLine;  ///< as typed, for the image header
 };
 

@@ -141,7 +141,8 @@ RenderStatistics renderWorld(SceneDescription& description, const Options& optio
   statistics.counters = result.counters;
 
   const Stopwatch writing;
-  writeImage(scene->outfile, withHeader(scene->film->develop(), statistics, options, sceneHash));
+  writeImage(scene->outfile, withHeader(scene->film->develop(), statistics, options, sceneHash),
+             options.write);
   statistics.write = writing.elapsed();
   statistics.peakMemory = peakMemoryBytes();
 

@@ -86,6 +86,18 @@ TEST_F(Pbrt, TakesOptionsInEverySpelling) {
   }
 }
 
+TEST_F(Pbrt, StoresExrFilesAsAsked) {
+  folder_.write("a.pbrt",
+                "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\nWorldBegin\n"
+                "LightSource \"infinite\" \"rgb L\" [ 0.1 100000 1 ]\nWorldEnd\n");
+  ASSERT_EQ(pbrt("--pixeltype float --compression piz --outfile f.exr a.pbrt").status, 0);
+  EXPECT_EQ(firstPixel("f.exr"), Rgb(0.1f, 100000, 1));
+  ASSERT_EQ(pbrt("--compression none --outfile h.exr a.pbrt").status, 0);
+  EXPECT_NEAR(firstPixel("h.exr").r, 0.1f, 1e-4f);
+  EXPECT_NE(firstPixel("h.exr").r, 0.1f) << "half numbers have 11 bits";
+  EXPECT_EQ(pbrt("--pixeltype double --outfile d.exr a.pbrt").status, 1);
+}
+
 TEST_F(Pbrt, ReadsStandardInput) {
   folder_.write("a.pbrt", kScene);
   EXPECT_EQ(pbrt("--outfile in.exr < a.pbrt").status, 0);
@@ -97,9 +109,9 @@ TEST_F(Pbrt, ReadsStandardInput) {
 TEST_F(Pbrt, PrintsHelpAndEndsWell) {
   const ProcessResult r = pbrt("--help");
   EXPECT_EQ(r.status, 0);
-  for (const char* option :
-       {"--nthreads", "--outfile", "--cropwindow", "--quick", "--quiet", "--cat", "--toply", "--spp",
-        "--seed", "--stats", "--progress", "--time", "--strict", "--lenient", "--verbose"}) {
+  for (const char* option : {"--nthreads", "--outfile", "--cropwindow", "--quick", "--quiet", "--cat",
+                             "--toply", "--spp", "--seed", "--stats", "--progress", "--time", "--pixeltype",
+                             "--compression", "--strict", "--lenient", "--verbose"}) {
     EXPECT_NE(r.output.find(option), std::string::npos) << option;
   }
 }
