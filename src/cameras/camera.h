@@ -20,10 +20,8 @@ class Camera {
   const AnimatedTransform& worldFromCamera() const { return worldFromCamera_; }
 
  protected:
-  Camera(AnimatedTransform worldFromCamera, float shutterOpen, float shutterClose)
-      : worldFromCamera_(std::move(worldFromCamera)),
-        shutterOpen_(shutterOpen),
-        shutterClose_(shutterClose) {}
+  Camera(const AnimatedTransform& worldFromCamera, float shutterOpen, float shutterClose)
+      : worldFromCamera_(worldFromCamera), shutterOpen_(shutterOpen), shutterClose_(shutterClose) {}
   float rayTime(float u) const { return (1 - u) * shutterOpen_ + u * shutterClose_; }
 
  private:

@@ -31,15 +31,11 @@ std::uint64_t largestRatio(Imf::Compression c) {
     case Imf::RLE_COMPRESSION:
       return 128;  // runs of at most 128 bytes in 2
     case Imf::B44_COMPRESSION:
-      [[fallthrough]];
     case Imf::B44A_COMPRESSION:
       return 16;  // 32 bytes in at least 3
     case Imf::ZIPS_COMPRESSION:
-      [[fallthrough]];
-    case Imf::ZIP_COMPRESSION:
-      [[fallthrough]];  // deflate: 1032
+    case Imf::ZIP_COMPRESSION:  // deflate: 1032
     case Imf::PXR24_COMPRESSION:
-      [[fallthrough]];
     case Imf::PIZ_COMPRESSION:
       return 2048;
     default:
@@ -57,7 +53,7 @@ std::uint64_t bytesPerPixel(const Imf::Header& header) {
 
 void checkHeader(const Imf::Header& header, std::uint64_t fileSize) {
   header.sanityCheck(header.hasTileDescription());
-  const Imath::Box2i window = header.dataWindow();
+  const Imath::Box2i& window = header.dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {

@@ -62,6 +62,7 @@ Taps lanczosTaps(int target, int from, int to) {
 
 std::vector<Taps> makeTaps(int from, int to, ResizeFilter filter) {
   std::vector<Taps> taps;
+  taps.reserve(static_cast<std::size_t>(to));
   for (int i = 0; i < to; ++i) {
     taps.push_back(filter == ResizeFilter::Box ? boxTaps(i, from, to) : lanczosTaps(i, from, to));
   }

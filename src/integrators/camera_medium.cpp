@@ -73,6 +73,7 @@ struct Verdict {
 
 Verdict askGeometry(const Scene& scene, Point3f origin, float time) {
   std::vector<Finding> findings;
+  findings.reserve(std::size(kProbes));
   for (const Vector3f d : kProbes) findings.push_back(probe(scene, origin, time, d));
   const auto saysSomething = [](const Finding& f) { return f.saysBoundary || f.state.enteredCount() > 0; };
   const auto says = static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), saysSomething));

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace pbrtmedia {
@@ -17,7 +18,7 @@ constexpr int kBarWidth = 30;
 
 std::string formatDuration(double seconds) {
   char text[32];
-  const auto whole = static_cast<long>(seconds + 0.5);
+  const long whole = std::lround(seconds);
   if (seconds < 59.95) {
     std::snprintf(text, sizeof text, "%.1fs", seconds);
   } else if (whole < 3600) {
