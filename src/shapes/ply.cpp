@@ -164,8 +164,8 @@ class PlyBody {
 
   std::size_t listLength(const PlyProperty& property) {
     const double count = numbers_.next(property.countType, property);
-    if (!(count >= 0 &&
-          count <= static_cast<double>(numbers_.bytesLeft() / Numbers::leastBytes(property.type)))) {
+    const std::size_t most = numbers_.bytesLeft() / Numbers::leastBytes(property.type);
+    if (!(count >= 0 && count <= static_cast<double>(most))) {
       fail(header_, numbers_.line(),
            "list \"" + property.name + "\": length " + std::to_string(static_cast<std::int64_t>(count)) +
                " does not fit into the file");
