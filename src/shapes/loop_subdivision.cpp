@@ -284,7 +284,8 @@ TriangleMesh::Params subdivideLoop(const LoopSubdivisionParams& params) {
     const std::uint32_t vertex = wedges[i].vertex;
     const Vec3d n = limitNormal(s.positions[vertex], ring, around[vertex].isBoundary());
     const double size = length(n);
-    mesh.N.emplace_back(size > 0 ? n / size : Vec3d{});  // zero: the triangle's own normal is used
+    // Clockwise side, as in PBRT-v3. Zero: the triangle's own normal is used.
+    mesh.N.emplace_back(size > 0 ? -n / size : Vec3d{});
     i = end;
   }
   mesh.indices.reserve(3 * s.triangles.size());

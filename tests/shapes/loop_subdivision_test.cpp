@@ -69,7 +69,7 @@ TEST(LoopSubdivision, TetrahedronConvergesToASmoothConvexSurface) {
   EXPECT_LT(distance(mesh.P[0], Point3f(0.2f, 0.2f, 0.2f)), 1e-6f);
   for (std::size_t i = 0; i < mesh.P.size(); ++i) {
     EXPECT_NEAR(length(mesh.N[i]), 1, 1e-5f);
-    EXPECT_GT(dot(mesh.N[i], mesh.P[i]), 0);  // outward, as the counter-clockwise faces
+    EXPECT_LT(dot(mesh.N[i], mesh.P[i]), 0);  // inward: against the counter-clockwise faces, as in PBRT-v3
   }
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const auto p = [&](std::size_t k) {
@@ -77,7 +77,7 @@ TEST(LoopSubdivision, TetrahedronConvergesToASmoothConvexSurface) {
     };
     const Vec3d face = normalize(cross(p(1) - p(0), p(2) - p(0)));
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_GT(dot(face, Vec3d(mesh.N[static_cast<std::size_t>(mesh.indices[i + k])])), 0.95);
+      EXPECT_LT(dot(face, Vec3d(mesh.N[static_cast<std::size_t>(mesh.indices[i + k])])), -0.95);
     }
   }
 }
@@ -87,7 +87,7 @@ TEST(LoopSubdivision, APlaneStaysAPlaneWithItsNormal) {
     const auto mesh = subdivideLoop(grid(3, levels));
     for (std::size_t i = 0; i < mesh.P.size(); ++i) {
       EXPECT_EQ(mesh.P[i].z, 0);
-      EXPECT_NEAR(mesh.N[i].z, 1, 1e-6f);  // interior, border and corner vertices
+      EXPECT_NEAR(mesh.N[i].z, -1, 1e-6f);  // interior, border and corner vertices
     }
   }
 }
