@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <charconv>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 
@@ -11,6 +12,13 @@
 
 namespace pbrtmedia {
 namespace {
+
+/// A number of a file for a message: any magnitude, few characters.
+std::string shortText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.15g", value);
+  return text;
+}
 
 [[noreturn]] void fail(const PlyHeader& header, std::uint32_t line, const std::string& message) {
   throw SceneError({.file = header.file, .line = line, .column = 0, .length = 1}, message);
@@ -167,8 +175,7 @@ class PlyBody {
     const std::size_t most = numbers_.bytesLeft() / Numbers::leastBytes(property.type);
     if (!(count >= 0 && count <= static_cast<double>(most))) {
       fail(header_, numbers_.line(),
-           "list \"" + property.name + "\": length " + std::to_string(static_cast<std::int64_t>(count)) +
-               " does not fit into the file");
+           "list \"" + property.name + "\": length " + shortText(count) + " does not fit into the file");
     }
     return static_cast<std::size_t>(count);
   }

@@ -174,6 +174,8 @@ TEST(Ply, ErrorsNameTheLine) {
             "13: property \"vertex_indices\": expected an integer, found \"1.5\"");
   EXPECT_EQ(errorOf(triangle("vertex_indices") + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n"),
             "13: list \"vertex_indices\": length -3 does not fit into the file");
+  EXPECT_EQ(errorOf(triangle("vertex_indices") + "0 0 0\n1 0 0\n0 1 0\n2500000000000000000000000 0 1 2\n"),
+            "13: list \"vertex_indices\": length 2.5e+24 does not fit into the file");
   EXPECT_EQ(errorOf(triangle("vertex_indices") + "0 0 0\n1 0 0\n0 1 0\n4 0 1 2 \n"),
             "14: ends before property \"vertex_indices\"");
   EXPECT_EQ(errorOf(triangle("vertex_indices") + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3000000000\n"),
