@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <numeric>
 #include <optional>
@@ -19,6 +19,7 @@ constexpr std::size_t kExcerptColumns = 100;  // what fits a terminal next to ou
 constexpr std::size_t kExcerptBytes = 400;  // read around the caret, so that a line of megabytes is no burden
 constexpr std::size_t kTabWidth = 4;
 constexpr std::size_t kMaxComparedLength = 32;  // longer names are no misspellings of ours
+constexpr std::size_t kMaxMisspelt = 15;        // longer ones are compared with names of like length only
 
 std::string_view name(Severity s) {
   return s == Severity::Error ? "error" : (s == Severity::Warning ? "warning" : "note");
@@ -174,29 +175,47 @@ class Excerpts {
   std::map<std::string, std::optional<LineFinder>> finders_;
 };
 
-/// Twice the edits (insert, delete, replace, swap of neighbours) between two words without regard to case,
-/// plus one if the words differ at all: a difference of case alone counts half an edit.
-std::size_t wordDistance(std::string_view a, std::string_view b) {
-  const auto same = [](char x, char y) {
-    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
-  };
-  a = a.substr(0, kMaxComparedLength);
-  b = b.substr(0, kMaxComparedLength);
-  std::array<std::size_t, kMaxComparedLength + 1> before{}, previous, current{};
-  std::iota(previous.begin(), previous.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    current[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replace = same(a[i - 1], b[j - 1]) ? 0 : 1;
-      current[j] = std::min({previous[j] + 1, current[j - 1] + 1, previous[j - 1] + replace});
-      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) {
-        current[j] = std::min(current[j], before[j - 2] + 1);
-      }
-    }
-    std::swap(before, previous);
-    std::swap(previous, current);
+/// The first letters of a word without regard to case, as far as they are compared.
+struct ComparedWord {
+  explicit ComparedWord(std::string_view word) : size(std::min(word.size(), kMaxComparedLength)) {
+    std::transform(word.begin(), word.begin() + static_cast<std::ptrdiff_t>(size), letters.begin(),
+                   [](char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
   }
-  return 2 * previous[b.size()] + (a == b ? 0 : 1);
+  std::size_t size;
+  std::array<char, kMaxComparedLength> letters{};
+};
+
+/// Edits (insert, delete, replace, swap of neighbours) between two words without regard to case.
+std::size_t editDistance(const ComparedWord& a, const ComparedWord& b) {
+  std::array<std::array<std::uint8_t, kMaxComparedLength + 1>, 3> rows{};  // of the table, used in turn
+  std::iota(rows[0].begin(), rows[0].end(), std::uint8_t{0});
+  for (std::size_t i = 1; i <= a.size; ++i) {
+    auto& current = rows[i % 3];
+    const auto &previous = rows[(i + 2) % 3], &before = rows[(i + 1) % 3];
+    const char letter = a.letters[i - 1];
+    current[0] = static_cast<std::uint8_t>(i);
+    for (std::size_t j = 1; j <= b.size; ++j) {
+      const bool same = letter == b.letters[j - 1];
+      const int step = std::min(previous[j], current[j - 1]) + 1;
+      int best = std::min(step, previous[j - 1] + (same ? 0 : 1));
+      if (i > 1 && j > 1 && letter == b.letters[j - 2] && a.letters[i - 2] == b.letters[j - 1]) {
+        best = std::min(best, before[j - 2] + 1);
+      }
+      current[j] = static_cast<std::uint8_t>(best);
+    }
+  }
+  return rows[a.size % 3][b.size];
+}
+
+/// Twice the edits between two words, plus one if they differ at all: a difference of case alone counts half
+/// an edit. A long word and one of less than half its length are no misspellings of each other, and count as
+/// different in every letter.
+std::size_t wordDistance(std::string_view a, std::string_view b, const ComparedWord& comparedA) {
+  const ComparedWord comparedB(b);
+  const auto [less, more] = std::minmax(comparedA.size, comparedB.size);
+  const std::size_t edits =
+      more > kMaxMisspelt && more > 2 * less ? more : editDistance(comparedA, comparedB);
+  return 2 * edits + (a == b ? 0 : 1);
 }
 
 struct Ranked {
@@ -205,9 +224,9 @@ struct Ranked {
 };
 std::vector<Ranked> rank(std::string_view found, std::span<const std::string_view> known) {
   std::vector<Ranked> ranked;
-  for (const std::string_view k : known) {
-    ranked.push_back({wordDistance(found, k), k});
-  }
+  ranked.reserve(known.size());
+  const ComparedWord compared(found);
+  for (const std::string_view k : known) ranked.push_back({wordDistance(found, k, compared), k});
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const Ranked& a, const Ranked& b) { return a.distance < b.distance; });
   return ranked;

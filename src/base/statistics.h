@@ -23,6 +23,7 @@ struct RenderCounters {
   std::uint64_t surfaceScatterings = 0;
   std::uint64_t boundViolations = 0;   ///< density above its bound
   double worstBoundRatio = 0;          ///< largest density / bound seen in a violation
+  std::uint64_t cappedEstimates = 0;   ///< transmittances that a limit on look-ups cut short
   std::uint64_t mediumMismatches = 0;  ///< crossings where a boundary contradicts the ray's current medium
   std::uint64_t boundaryRepairs = 0;   ///< scatter points that rounding had put beyond their boundary
   std::array<std::uint64_t, static_cast<std::size_t>(DropCause::kCount)> dropped{};
@@ -42,6 +43,7 @@ struct RenderCounters {
     surfaceScatterings += o.surfaceScatterings;
     boundViolations += o.boundViolations;
     if (o.worstBoundRatio > worstBoundRatio) worstBoundRatio = o.worstBoundRatio;
+    cappedEstimates += o.cappedEstimates;
     mediumMismatches += o.mediumMismatches;
     boundaryRepairs += o.boundaryRepairs;
     for (std::size_t i = 0; i < dropped.size(); ++i) dropped[i] += o.dropped[i];

@@ -14,7 +14,7 @@
 #include "construct/shapes.h"
 #include "construct/textures.h"
 #include "construct/world_builder.h"
-#include "integrators/camera_medium.h"
+#include "integrators/endless_medium.h"
 
 namespace pbrtmedia {
 namespace {
@@ -48,6 +48,18 @@ std::optional<const Medium*> cameraMediumOf(const SceneDescription& scene, const
   return world.medium(scene.cameraMedium.index);
 }
 
+/// Light from infinitely far never gets through a medium without end. That is right, but hardly meant.
+void warnOfEndlessMedium(const SceneDescription& scene, const Medium& medium, Diagnostics& diagnostics) {
+  for (const LightDescription& light : scene.lights) {
+    if (light.type != "distant" && light.type != "infinite" && light.type != "exinfinite") continue;
+    diagnostics.warning(light.location,
+                        "LightSource \"" + light.type +
+                            "\": its light comes from infinitely far through medium \"" + medium.name() +
+                            "\", which has no end, so none of it arrives; enclose the medium in "
+                            "a surface of material \"none\"");
+  }
+}
+
 CameraMedium findCameraMedium(const SceneDescription& scene, const Construction& made,
                               const WorldBuilder& world, Diagnostics& diagnostics) {
   if (!made.scene->hasMediumBoundaries() && scene.cameraMedium.name.empty()) return {};
@@ -56,10 +68,14 @@ CameraMedium findCameraMedium(const SceneDescription& scene, const Construction&
       made.camera->generateRay({static_cast<float>(made.film->settings().resolution.x) / 2,
                                 static_cast<float>(made.film->settings().resolution.y) / 2},
                                {0.5f, 0.5f}, middle);
-  CameraMedium medium(*made.scene, central.ray.o, central.ray.time, cameraMediumOf(scene, world));
+  const Ray& ray = central.ray;
+  CameraMedium medium(*made.scene, ray.o, ray.time, cameraMediumOf(scene, world));
   for (const std::string& warning : medium.warnings()) {
     const bool isGiven = scene.cameraMedium.location.file != nullptr;
     diagnostics.warning(isGiven ? scene.cameraMedium.location : scene.camera.location, warning);
+  }
+  if (const Medium* endless = findEndlessMedium(*made.scene, medium, ray.o, ray.time)) {
+    warnOfEndlessMedium(scene, *endless, diagnostics);
   }
   return medium;
 }

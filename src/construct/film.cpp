@@ -139,6 +139,10 @@ FilmPlan readFilm(SceneDescription& scene, const ConstructOptions& options, Diag
     const std::span<const float> crop = in.floats("cropwindow");
     if (crop.size() == 4) {
       setCropWindow(s, crop);
+      if (options.cropWindow) {
+        diagnostics.warning(in.locationOf(ParamKind::Float, "cropwindow"),
+                            in.context() + ": \"cropwindow\" wins over --cropwindow, as in PBRT-v3");
+      }
     } else {
       in.error(ParamKind::Float, "cropwindow",
                "found " + std::to_string(crop.size()) + " numbers, expected 4: x0 x1 y0 y1");

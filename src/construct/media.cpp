@@ -2,10 +2,14 @@
 #include "construct/media.h"
 
 #include <array>
+#include <filesystem>
 
+#include "construct/phase.h"
 #include "construct/plugins.h"
+#include "construct/transmittance.h"
 #include "media/grid_medium.h"
 #include "media/homogeneous.h"
+#include "media/nano_vdb_medium.h"
 #include "media/presets.h"
 #include "scene/param_reader.h"
 #include "transmittance/any_estimator.h"
@@ -39,7 +43,7 @@ void readCommon(ParamReader& in, const MediumDescription& medium, Params& p) {
     if (sigma.min() < 0)
       in.error(ParamKind::Spectrum, name, "found a negative coefficient, expected numbers >= 0");
   }
-  p.g = in.findFloat("g", p.g, Range::open(-1, 1));
+  p.phase = readPhase(in);
 
   constexpr std::array<std::string_view, 3> kRules = {"boundary", "add", "priority"};
   p.overlap.mode = std::array{OverlapRule::Mode::Boundary, OverlapRule::Mode::Add,
@@ -60,9 +64,20 @@ std::optional<MediumPlan> readHomogeneous(ParamReader& in, const MediumDescripti
   return [p] { return std::make_unique<HomogeneousMedium>(p); };
 }
 
+/// What every medium with a density field has beside.
+void readFieldMedium(ParamReader& in, const MediumDescription& medium, FieldMediumParams& p) {
+  readCommon(in, medium, p);
+  p.estimator = readTransmittance(in, p.estimator);
+  if (!std::holds_alternative<ExponentialLaw>(lawOf(p.estimator)) && p.sigmaS.max() > 0) {
+    in.error(ParamKind::String, "law",
+             "free flights follow the exponential law only: under another one the medium must not scatter "
+             "(sigma_s 0)");
+  }
+}
+
 std::optional<MediumPlan> readHeterogeneous(ParamReader& in, const MediumDescription& medium) {
   auto p = std::make_shared<GridMediumParams>();
-  readCommon(in, medium, *p);
+  readFieldMedium(in, medium, *p);
   const Range size = Range::closed(1, 1 << 20);
   p->grid.nx = in.findInt("nx", 1, size);
   p->grid.ny = in.findInt("ny", 1, size);
@@ -107,8 +122,28 @@ std::optional<MediumPlan> readHeterogeneous(ParamReader& in, const MediumDescrip
   };
 }
 
-constexpr std::array<Plugin<ReadMedium>, 2> kMedia = {
-    {{"homogeneous", readHomogeneous}, {"heterogeneous", readHeterogeneous}}};
+std::optional<MediumPlan> readNanoVdb(ParamReader& in, const MediumDescription& medium) {
+  NanoVdbMediumParams p;
+  readFieldMedium(in, medium, p);
+  p.field.grid = in.findString("grid", "");
+  p.field.map.scale = in.findFloat("densityscale", 1, Range::nonNegative());
+  p.field.map.offset = in.findFloat("densityoffset", 0);
+  const std::optional<std::filesystem::path> file = in.findInputFile("filename");
+  if (!file) {
+    if (!in.has(ParamKind::String, "filename")) in.error("parameter \"string filename\" is missing");
+    return std::nullopt;
+  }
+  p.field.file = *file;
+  // A grid that is not there is told at its name, what is wrong with the file at the file.
+  const ParamKind kind = ParamKind::String;
+  const SourceLocation named = in.locationOf(kind, in.has(kind, "grid") ? "grid" : "filename");
+  return [p = std::move(p), named, context = in.context(), place = medium.ctm->start] {
+    return builtAt(named, context, [&] { return makeNanoVdbMedium(p, place); });
+  };
+}
+
+constexpr std::array<Plugin<ReadMedium>, 3> kMedia = {
+    {{"homogeneous", readHomogeneous}, {"heterogeneous", readHeterogeneous}, {"nanovdb", readNanoVdb}}};
 
 }  // namespace
 

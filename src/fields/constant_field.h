@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -27,6 +29,9 @@ class ConstantField {
 
   /// Density at a local point inside the box.
   float density(Vec3d) const { return density_; }
+  void densities(const LocalLine&, std::span<const double>, std::span<float> out) const {
+    std::fill(out.begin(), out.end(), density_);
+  }
   /// Density at any point of world space.
   float densityAt(Point3f world) const;
   const AffineMap& localFromWorld() const { return localFromWorld_; }

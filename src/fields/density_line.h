@@ -2,7 +2,8 @@
 #pragma once
 
 #include <concepts>
-#include <cstdint>
+#include <cstddef>
+#include <span>
 
 #include "fields/super_voxel.h"
 
@@ -18,14 +19,18 @@ struct AnyIntervalVisitor {
 /// benchmarks and the one-dimensional tests each bring their own. Points on it are given by s, 0 <= s <=
 /// length, in the unit of the segment's t.
 ///
-/// `density(s)` is the unitless density >= 0 at s. `walk(visit)` calls visit(sEnter, sExit, bound) for
-/// consecutive intervals, sEnter < sExit; the first begins at 0, each begins where the one before ends, the
-/// last ends at the length, and neighbouring empty ones (upper = 0) may come as one. The walk stops when
-/// visit answers false. `kProvenBounds` tells that the bounds follow from the data; otherwise a zero bound is
-/// worth a probe.
+/// `density(s)` is the unitless density >= 0 at s; `densities(s, out)` answers a batch of points, out[i]
+/// being bit for bit density(s[i]). `walk(visit)` calls visit(sEnter, sExit, bound) for consecutive
+/// intervals, sEnter < sExit; the first begins at 0, each begins where the one before ends, the last ends at
+/// the length, and neighbouring empty ones (upper = 0) may come as one. The walk stops when visit answers
+/// false. `kProvenBounds` tells that the bounds follow from the data; otherwise a zero bound is worth a
+/// probe.
 template <class L>
-concept DensityLine = requires(const L& line, double s, AnyIntervalVisitor visit) {
+concept DensityLine = requires(const L& line, double s, AnyIntervalVisitor visit,
+                               std::span<const double> points, std::span<float> out) {
+  { line.length() } -> std::same_as<double>;
   { line.density(s) } -> std::same_as<float>;
+  line.densities(points, out);
   line.walk(visit);
   { L::kProvenBounds } -> std::convertible_to<bool>;
 };
@@ -37,5 +42,11 @@ template <class L>
 concept PiecewiseCubicLine = DensityLine<L> && requires(const L& line, AnyIntervalVisitor visit) {
   line.walkPieces(visit);
 };
+
+/// The scalar twin of every `densities`.
+template <class L>
+void densitiesOneByOne(const L& line, std::span<const double> s, std::span<float> out) {
+  for (std::size_t i = 0; i < s.size(); ++i) out[i] = line.density(s[i]);
+}
 
 }  // namespace pbrtmedia

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "base/bounds.h"
 #include "base/segment.h"
@@ -14,6 +15,13 @@
 
 namespace pbrtmedia {
 
+/// A field that answers many points of a line faster than one after the other.
+template <class Field>
+concept BatchedField = requires(const Field& field, const LocalLine& line, std::span<const double> s,
+                                std::span<float> out) {
+  field.densities(line, s, out);
+};
+
 /// The part of a segment inside a field (fields/density_line.h), in the field's local space and restarted
 /// where it enters: s = t - tEntry(). So no number on it is larger than the field, however far away the
 /// segment begins. Borrows field and bounds.
@@ -22,7 +30,8 @@ class FieldLine {
  public:
   static constexpr bool kProvenBounds = Field::kProvenBounds;
 
-  /// Nothing when the segment meets no density: it misses the occupied box, or has no length there.
+  /// Nothing when the segment meets no density: it misses the occupied box, has no length there, or is not
+  /// finite in the field's space. So every point of a line can be looked up.
   static std::optional<FieldLine> clip(const Field& field, const SuperVoxels& bounds,
                                        const Segment& segment) {
     const Bounds3d& box = bounds.occupied();
@@ -37,6 +46,7 @@ class FieldLine {
     double length = tMax - tMin;
     // Far from the segment's origin t itself is coarse: then clip again from the entry, where it is not.
     if (!isNear(box, line.o + length * line.d)) {
+      if (!isFinite(line.o) || !isFinite(line.d)) return std::nullopt;
       double begin = 0;
       clipToSlabs(box, line, begin, length);
     }
@@ -48,6 +58,13 @@ class FieldLine {
   double tEntry() const { return tEntry_; }
   double length() const { return length_; }
   float density(double s) const { return field_->density(line_.o + s * line_.d); }
+  void densities(std::span<const double> s, std::span<float> out) const {
+    if constexpr (BatchedField<Field>) {
+      field_->densities(line_, s, out);
+    } else {
+      densitiesOneByOne(*this, s, out);
+    }
+  }
   template <class Visit>
   void walk(Visit&& visit) const {
     bounds_->walk(line_, length_, visit);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,16 +10,12 @@
 #include "base/transform.h"
 #include "base/vec.h"
 #include "fields/affine_map.h"
+#include "fields/grid_batch.h"
+#include "fields/grid_samples.h"
 #include "fields/lattice_walk.h"
 #include "fields/super_voxels.h"
 
 namespace pbrtmedia {
-
-/// What trilinear interpolation finds beyond the outermost samples.
-enum class GridBorder {
-  Zero,   ///< PBRT-v3: samples outside are 0, so the density fades over the outer half voxel
-  Clamp,  ///< the outermost sample holds up to the face of the box; 0 beyond
-};
 
 /// Samples of a density on a regular grid over a box, interpolated trilinearly. Sample (i, j, k) lies at the
 /// centre of its voxel, ((i + 1/2)/nx, ...) of the box; outside the box the density is 0.
@@ -33,6 +30,8 @@ class GridField {
     std::vector<float> density;        ///< nx ny nz values >= 0, finite, x fastest
     Point3f p0{0, 0, 0}, p1{1, 1, 1};  ///< opposite corners in medium space; they differ on every axis
     GridBorder border = GridBorder::Zero;
+    GridPrecision precision = GridPrecision::Float;
+    GridLayout layout = GridLayout::Automatic;
   };
   static constexpr std::string_view kTypeName = "grid";
   static constexpr bool kProvenBounds = true;
@@ -42,20 +41,18 @@ class GridField {
   GridField(const Params& params, const Transform& worldFromMedium);
 
   /// Density at a local point inside the box (up to almost half a voxel outside is safe).
-  float density(Vec3d p) const {
-    // Local coordinates are positive, so truncation is floor.
-    const std::int64_t ix = static_cast<std::int64_t>(p.x), iy = static_cast<std::int64_t>(p.y),
-                       iz = static_cast<std::int64_t>(p.z);
-    const float fx = static_cast<float>(p.x - static_cast<double>(ix)),
-                fy = static_cast<float>(p.y - static_cast<double>(iy)),
-                fz = static_cast<float>(p.z - static_cast<double>(iz));
-    const float* s = samples_.data() + (iz * slice_ + iy * row_ + ix);
-    const auto along = [](float f, float a, float b) { return a + f * (b - a); };
-    const float low = along(fy, along(fx, s[0], s[1]), along(fx, s[row_], s[row_ + 1]));
-    const float* r = s + slice_;
-    const float high = along(fy, along(fx, r[0], r[1]), along(fx, r[row_], r[row_ + 1]));
-    return along(fz, low, high);
+  float density(Vec3d p) const { return samples_.view().density(p); }
+  /// Densities at the points o + s d of a line, bit for bit those of `density`; sizes are equal. Any order
+  /// and spacing of s; each point where `density` is safe.
+  void densities(const LocalLine& line, std::span<const double> s, std::span<float> out) const {
+    if (s.size() >= kSmallestBatch) {
+      gridDensities(samples_.view(), line.o, line.d, s, out);
+      return;
+    }
+    for (std::size_t i = 0; i < s.size(); ++i) out[i] = density(line.o + s[i] * line.d);
   }
+  /// From here on the batch is faster than look-ups one by one (bench/layout_bench.cpp).
+  static constexpr std::size_t kSmallestBatch = 4;
   /// Density at any point of world space; 0 outside the box.
   float densityAt(Point3f world) const;
 
@@ -65,8 +62,8 @@ class GridField {
   const AffineMap& localFromWorld() const { return localFromWorld_; }
   const Transform& worldFromLocal() const { return worldFromLocal_; }
   Bounds3d localBox() const;
-  /// Bounds with cells of 2^power samples per axis, 0 <= power <= kMaxSuperVoxelPower; throws SceneError
-  /// beyond.
+  /// Bounds and means (fields/grid_bounds.h) with cells of 2^power samples per axis, 0 <= power <=
+  /// kMaxSuperVoxelPower; throws SceneError beyond.
   SuperVoxels superVoxels(int power = kDefaultSuperVoxelPower) const;
   static constexpr int kDefaultSuperVoxelPower = 2, kMaxSuperVoxelPower = 10;
   /// Cuts the line (local units) at the lattice planes: between two, the density is a cubic in s.
@@ -80,13 +77,14 @@ class GridField {
       return more;
     });
   }
+  const GridSamples& samples() const { return samples_; }
+  bool isBricked() const { return samples_.layout().isBricked(); }
   std::string describe() const;
-  std::size_t bytes() const { return samples_.size() * sizeof(float); }
+  std::size_t bytes() const { return samples_.bytes(); }
 
  private:
   int n_[3];
-  std::int64_t row_, slice_;  ///< samples from one y, z to the next, apron included
-  std::vector<float> samples_;
+  GridSamples samples_;
   Transform worldFromLocal_;
   AffineMap localFromWorld_;
 };

@@ -15,7 +15,8 @@ struct Occupancy {
   bool any = false;
 };
 
-Occupancy survey(const LatticeShape& shape, const std::vector<SuperVoxel>& cells) {
+template <class Cells>
+Occupancy occupancyOf(const LatticeShape& shape, const Cells& cells) {
   Occupancy o;
   for (std::int64_t k = 0; k < shape.count.z; ++k) {
     for (std::int64_t j = 0; j < shape.count.y; ++j) {
@@ -38,20 +39,45 @@ Occupancy survey(const LatticeShape& shape, const std::vector<SuperVoxel>& cells
 
 SuperVoxels::SuperVoxels(const LatticeShape& shape, double cellSize, const Bounds3d& box,
                          const std::function<SuperVoxel(std::int64_t, std::int64_t, std::int64_t)>& boundOf)
-    : shape_(shape), cellSize_(cellSize), inverseCellSize_(1 / cellSize) {
-  cells_.resize(static_cast<std::size_t>(shape.stored()));
+    : shape_(shape), cellSize_(cellSize), inverseCellSize_(1 / cellSize), box_(box) {
+  bounds_.resize(static_cast<std::size_t>(shape.stored()));
+  means_.resize(bounds_.size());
   parallelFor(static_cast<std::size_t>(shape.count.y * shape.count.z), [&](std::size_t row) {
     const auto j = static_cast<std::int64_t>(row) % shape.count.y;
     const auto k = static_cast<std::int64_t>(row) / shape.count.y;
-    SuperVoxel* out = cells_.data() + shape.index(0, j, k);
-    for (std::int64_t i = 0; i < shape.count.x; ++i) out[i] = boundOf(i, j, k);
+    const auto first = static_cast<std::size_t>(shape.index(0, j, k));
+    for (std::int64_t i = 0; i < shape.count.x; ++i) {
+      const SuperVoxel cell = boundOf(i, j, k);
+      bounds_[first + static_cast<std::size_t>(i)] = {cell.upper, cell.lower};
+      means_[first + static_cast<std::size_t>(i)] = cell.mean;
+    }
   });
-  for (const SuperVoxel& cell : cells_) maximum_ = std::max(maximum_, cell.upper);
-  const Occupancy occupancy = survey(shape_, cells_);
+  survey();
+}
+
+void SuperVoxels::update(const std::function<SuperVoxel(std::size_t, const SuperVoxel&)>& newCell) {
+  for (std::int64_t k = 0; k < shape_.count.z; ++k) {
+    for (std::int64_t j = 0; j < shape_.count.y; ++j) {
+      for (std::int64_t i = 0; i < shape_.count.x; ++i) {
+        const auto index = static_cast<std::size_t>(shape_.index(i, j, k));
+        const SuperVoxel next = newCell(index, cell(index));
+        bounds_[index] = {next.upper, next.lower};
+        means_[index] = next.mean;
+      }
+    }
+  }
+  survey();
+}
+
+void SuperVoxels::survey() {
+  maximum_ = 0;
+  for (const Bound& bound : bounds_) maximum_ = std::max(maximum_, bound.upper);
+  const Occupancy occupancy = occupancyOf(shape_, bounds_);
   emptyCells_ = occupancy.empty;
-  if (!occupancy.any) return;  // `occupied_` stays empty
-  occupied_.min = max(box.min, Vec3d(occupancy.first) * cellSize);
-  occupied_.max = min(box.max, Vec3d(occupancy.last + Vec3<std::int64_t>(1, 1, 1)) * cellSize);
+  occupied_ = {};
+  if (!occupancy.any) return;
+  occupied_.min = max(box_.min, Vec3d(occupancy.first) * cellSize_);
+  occupied_.max = min(box_.max, Vec3d(occupancy.last + Vec3<std::int64_t>(1, 1, 1)) * cellSize_);
 }
 
 }  // namespace pbrtmedia

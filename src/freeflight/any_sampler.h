@@ -6,12 +6,25 @@
 #include <variant>
 #include <vector>
 
+#include "freeflight/decomposition_tracking.h"
 #include "freeflight/delta_tracking.h"
+#include "freeflight/marched_flight.h"
+#include "freeflight/regular_flight.h"
+#include "freeflight/sampler_traits.h"
+#include "freeflight/single_particle_tracking.h"
+#include "freeflight/weighted_delta_tracking.h"
+#include "transmittance/parameters.h"
 
 namespace pbrtmedia {
 
 /// The one list of free-flight samplers. A new one is its header and one word here. The first is the default.
-using AnySampler = std::variant<DeltaTracking>;
+///
+/// A sampler is a small immutable value: kName, traits(), parameters() (transmittance/parameters.h), and
+///   template <DensityLine Line, std::size_t N>
+///   FlightSample<N> operator()(const Line& line, const Channels<N>& sigmaT, Rng& rng) const;
+/// or the same with the albedo (Channels<N>) before the random numbers, if it must know it.
+using AnySampler = std::variant<WeightedDeltaTracking, DeltaTracking, DecompositionTracking,
+                                SingleParticleTracking, MarchedFlight, RegularFlight>;
 
 /// The keyword of a sampler.
 std::string_view nameOf(const AnySampler& sampler);
@@ -19,5 +32,20 @@ std::string_view nameOf(const AnySampler& sampler);
 std::optional<AnySampler> findSampler(std::string_view name);
 /// All keywords, default first.
 std::vector<std::string_view> samplerNames();
+
+SamplerTraits traitsOf(const AnySampler& sampler);
+std::vector<ParameterDescription> parametersOf(const AnySampler& sampler);
+AssignResult setParameter(AnySampler& sampler, std::string_view name, const ParameterValue& value);
+
+/// A flight by any sampler, which is asked with the albedo if it wants it.
+template <class Sampler, class Line, std::size_t N>
+FlightSample<N> fly(const Sampler& sampler, const Line& line, const Channels<N>& sigmaT,
+                    const Channels<N>& albedo, Rng& rng) {
+  if constexpr (requires { sampler(line, sigmaT, albedo, rng); }) {
+    return sampler(line, sigmaT, albedo, rng);
+  } else {
+    return sampler(line, sigmaT, rng);
+  }
+}
 
 }  // namespace pbrtmedia

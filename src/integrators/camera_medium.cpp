@@ -2,21 +2,12 @@
 #include "integrators/camera_medium.h"
 
 #include <algorithm>
-#include <array>
 
 #include "integrators/line_walk.h"
+#include "integrators/probe_directions.h"
 
 namespace pbrtmedia {
 namespace {
-
-/// Directions of the probe rays: spread over the sphere and parallel to nothing that scenes are made of.
-constexpr std::array<Vector3f, 7> kProbes{{{0.3061f, 0.8713f, 0.3836f},
-                                           {-0.7393f, 0.2371f, 0.6302f},
-                                           {0.8219f, -0.3137f, 0.4755f},
-                                           {-0.2693f, -0.8419f, 0.4676f},
-                                           {-0.5839f, 0.6551f, -0.4795f},
-                                           {0.6317f, 0.2939f, -0.7173f},
-                                           {-0.1741f, -0.5171f, -0.8380f}}};
 
 /// What the boundaries along one line say about its start.
 struct Finding {
@@ -73,8 +64,8 @@ struct Verdict {
 
 Verdict askGeometry(const Scene& scene, Point3f origin, float time) {
   std::vector<Finding> findings;
-  findings.reserve(std::size(kProbes));
-  for (const Vector3f d : kProbes) findings.push_back(probe(scene, origin, time, d));
+  findings.reserve(kProbeDirections.size());
+  for (const Vector3f d : kProbeDirections) findings.push_back(probe(scene, origin, time, d));
   const auto saysSomething = [](const Finding& f) { return f.saysBoundary || f.state.enteredCount() > 0; };
   const auto says = static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), saysSomething));
   // A direction that meets no boundary is no evidence: an open surface may name the medium in front of it.

@@ -2,12 +2,12 @@
 #include "integrators/render_loop.h"
 
 #include <algorithm>
-#include <chrono>
 #include <mutex>
 #include <tuple>
 
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 
 namespace pbrtmedia {
 namespace {
@@ -17,16 +17,6 @@ constexpr std::size_t kPassBytes = std::size_t{64} << 20;
 /// "path" in ASCII: keeps the Rng of samples apart from other uses of the same seed.
 constexpr std::uint64_t kRngTag = 0x70617468;
 constexpr double kProgressInterval = 0.1;  // seconds
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// A rectangle of the film that one thread renders, and what came out besides radiance.
 struct Tile {

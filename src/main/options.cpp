@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <map>
 
@@ -62,6 +63,7 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
       ->group(render);
   app.add_option("--cropwindow", crop, "render only this part: fractions of the image, y down")
       ->expected(4)
+      ->allow_extra_args(false)  // what follows is the scene
       ->type_name("X0 X1 Y0 Y1")
       ->group(render);
   app.add_option("--spp", options.samplesPerPixel, "samples per pixel instead of the scene's")
@@ -163,6 +165,11 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
       }
     }
     options.cropWindow = window;
+  }
+  if (options.timeLimit && !std::isfinite(*options.timeLimit)) {
+    std::cerr << "pbrt: error: --time: found " << *options.timeLimit
+              << ", expected a finite number of seconds\n";
+    return {std::nullopt, 1};
   }
   options.progress = progress == "none"    ? ProgressMode::None
                      : progress == "plain" ? ProgressMode::Plain

@@ -7,13 +7,13 @@
 
 #include "base/diagnostics.h"
 #include "base/parallel.h"
+#include "base/stop_signal.h"
+#include "base/stopwatch.h"
 #include "construct/construct.h"
 #include "image/image.h"
 #include "integrators/render_loop.h"
 #include "main/progress.h"
 #include "main/statistics_report.h"
-#include "main/stop_signal.h"
-#include "main/stopwatch.h"
 #include "main/version.h"
 #include "main/warnings.h"
 #include "scene/parser.h"
@@ -99,6 +99,14 @@ RenderResult renderImage(const Construction& scene, const Options& options, cons
   return result;
 }
 
+/// Finds out before hours of rendering that the statistics could not be written.
+void requireFolderOf(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  std::error_code ignored;
+  if (std::filesystem::is_directory(folder, ignored)) return;
+  throw SceneError({}, "--stats " + file.string() + ": folder \"" + folder.string() + "\" does not exist");
+}
+
 /// One world: build, render, write. Sets `status` and returns the numbers.
 RenderStatistics renderWorld(SceneDescription& description, const Options& options,
                              const PhaseTime& parseTime, int& status) {
@@ -131,7 +139,7 @@ RenderStatistics renderWorld(SceneDescription& description, const Options& optio
     for (const std::string& line : scene->report) std::cerr << "  " << line << '\n';
   }
 
-  const StopSignal stop;
+  const StopSignal stop("\nstopping; the image so far will be written (again to end at once)\n");
   const Stopwatch rendering;
   const RenderResult result = renderImage(*scene, options, stop);
   statistics.render = rendering.elapsed();
@@ -157,6 +165,7 @@ RenderStatistics renderWorld(SceneDescription& description, const Options& optio
 
 int runPbrt(const Options& options) {
   if (options.cat || options.toPly) return printScenes(options);
+  if (options.statsFile) requireFolderOf(*options.statsFile);
   const ThreadLimit threads(options.threads);
 
   const Stopwatch parsing;

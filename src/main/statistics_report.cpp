@@ -31,6 +31,7 @@ nlohmann::ordered_json toJson(const RenderCounters& c) {
           {"surfaceScatterings", c.surfaceScatterings},
           {"boundViolations", c.boundViolations},
           {"worstBoundRatio", c.worstBoundRatio},
+          {"cappedEstimates", c.cappedEstimates},
           {"mediumMismatches", c.mediumMismatches},
           {"boundaryRepairs", c.boundaryRepairs},
           {"droppedSamples", dropped}};
@@ -90,7 +91,8 @@ void writeStatistics(const std::filesystem::path& path, const std::vector<Render
   for (const RenderStatistics& s : renders) root["renders"].push_back(toJson(s));
   writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary);
-    out << root.dump(2) << '\n';
+    // Names of files may be no text at all.
+    out << root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
     out.close();
     if (!out) throw std::runtime_error("cannot write " + temporary.string());
   });

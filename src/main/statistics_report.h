@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/statistics.h"
-#include "main/stopwatch.h"
+#include "base/stopwatch.h"
 
 namespace pbrtmedia {
 

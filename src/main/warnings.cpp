@@ -34,6 +34,10 @@ std::string describeFaults(const RenderResult& result, const Options& options) {
     os << "pbrt: WARNING: " << c.boundViolations
        << " density lookups exceeded their bound, the worst by a factor of " << c.worstBoundRatio << ".\n";
   }
+  if (c.cappedEstimates > 0 && !options.quiet) {
+    os << "pbrt: warning: " << c.cappedEstimates
+       << " transmittance estimates were cut short by maxlookups.\n";
+  }
   if (c.mediumMismatches > 0 && !options.quiet) {
     os << "pbrt: warning: " << c.mediumMismatches
        << " boundary crossings name another medium than the ray was in; where boundaries overlap, give the "

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -15,9 +16,9 @@
 #include "freeflight/any_sampler.h"
 #include "media/coefficients.h"
 #include "media/field_medium_params.h"
-#include "media/henyey_greenstein.h"
 #include "media/medium.h"
 #include "transmittance/any_estimator.h"
+#include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
 
@@ -36,13 +37,13 @@ class FieldMedium final : public Medium {
         sigmaT_(params.sigmaA + params.sigmaS),
         estimator_(params.estimator),
         sampler_(params.sampler),
-        phase_(params.g) {
+        phase_(makePhaseFunction(params.phase)) {
     checkCoefficients(params.sigmaA, params.sigmaS, name());
     for (std::size_t c = 0; c < 3; ++c) albedo_[c] = sigmaT_[c] > 0 ? params.sigmaS[c] / sigmaT_[c] : 0.0f;
   }
 
   std::string_view typeName() const override { return typeName_; }
-  const PhaseFunction& phase() const override { return phase_; }
+  const PhaseFunction& phase() const override { return *phase_; }
 
   /// A segment with a NaN gives NaN, so that the sample is dropped and counted where such are.
   Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const override {
@@ -83,9 +84,12 @@ class FieldMedium final : public Medium {
     const auto& n = bounds_.shape().count;
     std::ostringstream text;
     text << field_.describe() << ", super-voxels " << n.x << " x " << n.y << " x " << n.z << " ("
-         << bounds_.emptyCells() << " empty), estimator " << nameOf(estimator_) << ", sampler "
-         << nameOf(sampler_) << ", " << (sigmaT_.isGrey() ? "1 channel" : "3 channels") << ", "
-         << field_.bytes() + bounds_.bytes() << " bytes";
+         << bounds_.emptyCells() << " empty), estimator " << nameOf(estimator_);
+    if (const AnyLaw law = lawOf(estimator_); !std::holds_alternative<ExponentialLaw>(law)) {
+      text << " (law " << nameOf(law) << ')';
+    }
+    text << ", sampler " << nameOf(sampler_) << ", " << (sigmaT_.isGrey() ? "1 channel" : "3 channels")
+         << ", " << field_.bytes() + bounds_.bytes() << " bytes";
     return text.str();
   }
 
@@ -113,8 +117,9 @@ class FieldMedium final : public Medium {
   template <std::size_t N>
   Rgb estimate(const FieldLine<Field>& line, const Channels<N>& sigmaT, Rng& rng,
                RenderCounters& counters) const {
+    SampleStream stream(rng);
     const Estimate<N> result =
-        std::visit([&](const auto& estimator) { return estimator(line, sigmaT, rng); }, estimator_);
+        std::visit([&](const auto& estimator) { return estimator(line, sigmaT, stream); }, estimator_);
     result.tally.addTo(counters);
     return toRgb(result.value);
   }
@@ -122,8 +127,10 @@ class FieldMedium final : public Medium {
   template <std::size_t N>
   FreeFlight fly(const FieldLine<Field>& line, const Channels<N>& sigmaT, Rng& rng,
                  RenderCounters& counters) const {
-    const FlightSample<N> result =
-        std::visit([&](const auto& sampler) { return sampler(line, sigmaT, rng); }, sampler_);
+    Channels<N> albedo;
+    for (std::size_t c = 0; c < N; ++c) albedo[c] = static_cast<double>(albedo_[c]);
+    const FlightSample<N> result = std::visit(
+        [&](const auto& sampler) { return pbrtmedia::fly(sampler, line, sigmaT, albedo, rng); }, sampler_);
     result.tally.addTo(counters);
     const Rgb weight = toRgb(result.weight);
     if (!result.collided) return {false, 0, weight};
@@ -136,7 +143,7 @@ class FieldMedium final : public Medium {
   Rgb sigmaT_, albedo_;
   AnyEstimator estimator_;
   AnySampler sampler_;
-  HenyeyGreenstein phase_;
+  std::unique_ptr<PhaseFunction> phase_;
 };
 
 }  // namespace pbrtmedia

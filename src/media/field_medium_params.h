@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "freeflight/any_sampler.h"
 #include "media/medium.h"
+#include "media/phase_params.h"
 #include "spectrum/rgb.h"
 #include "transmittance/any_estimator.h"
 
@@ -16,9 +18,9 @@ struct FieldMediumParams {
   std::string name;
   Rgb sigmaA{.0011f, .0024f, .014f};  ///< absorption at density 1, 1/world length, >= 0
   Rgb sigmaS{2.55f, 3.21f, 3.77f};    ///< scattering at density 1, 1/world length, >= 0
-  float g = 0;                        ///< Henyey-Greenstein, in (-1, 1)
+  std::vector<PhaseLobe> phase = {PhaseLobe{}};
   OverlapRule overlap;
-  AnyEstimator estimator;
+  AnyEstimator estimator = RatioTracking{.rouletteThreshold = 0.1};
   AnySampler sampler;
 };
 

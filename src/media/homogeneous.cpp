@@ -23,7 +23,7 @@ HomogeneousMedium::HomogeneousMedium(Params params)
     : Medium(std::move(params.name), params.overlap),
       sigmaS_(params.sigmaS),
       sigmaT_(params.sigmaA + params.sigmaS),
-      phase_(params.g),
+      phase_(makePhaseFunction(params.phase)),
       grey_(sigmaT_.isGrey()) {
   checkCoefficients(params.sigmaA, params.sigmaS, name());
 }
@@ -73,7 +73,7 @@ Bounds3f HomogeneousMedium::bounds() const {
 std::string HomogeneousMedium::describe() const {
   std::ostringstream text;
   text << "homogeneous, sigma_t " << sigmaT_ << ", exact transmittance, " << (grey_ ? 1 : 3)
-       << (grey_ ? " channel" : " channels") << ", g " << phase_.g();
+       << (grey_ ? " channel" : " channels") << ", phase function " << phase_->typeName();
   return text.str();
 }
 

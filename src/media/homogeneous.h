@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
-#include "media/henyey_greenstein.h"
 #include "media/medium.h"
+#include "media/phase_params.h"
 
 namespace pbrtmedia {
 
@@ -16,7 +18,7 @@ class HomogeneousMedium final : public Medium {
     std::string name;
     Rgb sigmaA{.0011f, .0024f, .014f};  ///< absorption, 1/world length, >= 0
     Rgb sigmaS{2.55f, 3.21f, 3.77f};    ///< scattering, 1/world length, >= 0
-    float g = 0;                        ///< Henyey-Greenstein, in (-1, 1)
+    std::vector<PhaseLobe> phase = {PhaseLobe{}};
     OverlapRule overlap;
   };
   static constexpr std::string_view kTypeName = "homogeneous";
@@ -27,14 +29,14 @@ class HomogeneousMedium final : public Medium {
   std::string_view typeName() const override { return kTypeName; }
   Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
   FreeFlight sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
-  const PhaseFunction& phase() const override { return phase_; }
+  const PhaseFunction& phase() const override { return *phase_; }
   Bounds3f bounds() const override;
   std::string describe() const override;
   Rgb sigmaT() const { return sigmaT_; }
 
  private:
   Rgb sigmaS_, sigmaT_;
-  HenyeyGreenstein phase_;
+  std::unique_ptr<PhaseFunction> phase_;
   bool grey_;
 };
 

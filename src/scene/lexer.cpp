@@ -106,7 +106,8 @@ std::size_t Lexer::readNumbers(T* out, std::size_t most, const Convert& convert)
     Decimal d;
     const char* const start = p;
     T value;
-    if (!scanDecimal(p, end, d) || (p != end && !isDelimiter(*p)) || !convert(d, value)) {
+    if (!scanDecimal(p, end, d) || (p != end && !isDelimiter(*p)) ||
+        !convert(d, std::string_view(start, static_cast<std::size_t>(p - start)), value)) {
       p_ = start;
       return count;
     }
@@ -116,10 +117,14 @@ std::size_t Lexer::readNumbers(T* out, std::size_t most, const Convert& convert)
   return count;
 }
 
-std::size_t Lexer::readFloats(float* out, std::size_t most) { return readNumbers(out, most, exactFloat); }
+std::size_t Lexer::readFloats(float* out, std::size_t most) {
+  return readNumbers(out, most, [](const Decimal& d, std::string_view word, float& value) {
+    return exactFloat(d, value) || parseFloat(word, value) == NumberStatus::Ok;
+  });
+}
 
 std::size_t Lexer::readInts(int* out, std::size_t most) {
-  return readNumbers(out, most, [](const Decimal& d, int& value) {
+  return readNumbers(out, most, [](const Decimal& d, std::string_view, int& value) {
     if (!d.exact || d.exponent != 0) return false;
     if (d.mantissa > static_cast<std::uint64_t>(std::numeric_limits<int>::max())) return false;
     value = static_cast<int>(d.mantissa);

@@ -37,7 +37,7 @@ class Lexer {
 
   Token next();
   /// Reads plain numbers while they follow each other, at most `most`; stops before anything else (a comment,
-  /// a bracket, a number that needs a closer look), which `next` then gives.
+  /// a bracket, a number with a problem), which `next` then gives.
   std::size_t readFloats(float* out, std::size_t most);
   std::size_t readInts(int* out, std::size_t most);
   /// Bytes of the text already turned into tokens.

@@ -68,28 +68,22 @@ inline constexpr std::array<double, 23> kPowersOfTen{1e0,  1e1,  1e2,  1e3,  1e4
                                                      1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                      1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-/// The correctly rounded double when one operation on exact operands gives it (Clinger 1990,
-/// doi:10.1145/93542.93557, section 5); false: the digits need a full conversion.
-inline bool exactDouble(const Decimal& d, double& value) {
-  if (!d.exact || d.mantissa > (std::uint64_t{1} << 53) || d.exponent < -22 || d.exponent > 22) return false;
+/// The correctly rounded float by way of a double; false: the digits need a full conversion. Up to 2^53 the
+/// mantissa is a double and one operation on exact operands gives the correctly rounded quotient or product
+/// (Clinger 1990, doi:10.1145/93542.93557, section 5); beyond, rounding the mantissa first leaves the double
+/// less than two spacings off. Rounding again is right unless the double lies within its error of half-way
+/// between two floats, or where floats are subnormal or end.
+inline bool exactFloat(const Decimal& d, float& value) {
+  if (!d.exact || d.exponent < -22 || d.exponent > 22) return false;
   const auto m = static_cast<double>(d.mantissa);
   const double v = d.exponent < 0 ? m / kPowersOfTen[static_cast<std::size_t>(-d.exponent)]
                                   : m * kPowersOfTen[static_cast<std::size_t>(d.exponent)];
-  value = d.negative ? -v : v;
-  return true;
-}
-
-/// The correctly rounded float by way of a double. Rounding twice is right unless the double lies exactly
-/// half-way between two floats, or where floats are subnormal or end: then false.
-inline bool exactFloat(const Decimal& d, float& value) {
-  double v;
-  if (!exactDouble(d, v)) return false;
   constexpr std::uint64_t kDropped = (std::uint64_t{1} << 29) - 1;  // bits a float has less than a double
   constexpr std::uint64_t kHalfWay = std::uint64_t{1} << 28;
-  if ((std::bit_cast<std::uint64_t>(v) & kDropped) == kHalfWay) return false;
-  const double magnitude = v < 0 ? -v : v;
-  if (magnitude != 0 && (magnitude < 0x1p-126 || magnitude > 0x1p127)) return false;
-  value = static_cast<float>(v);
+  const std::uint64_t error = d.mantissa > (std::uint64_t{1} << 53) ? 2 : 0;
+  if ((std::bit_cast<std::uint64_t>(v) & kDropped) - (kHalfWay - error) <= 2 * error) return false;
+  if (v != 0 && (v < 0x1p-126 || v > 0x1p127)) return false;
+  value = static_cast<float>(d.negative ? -v : v);
   return true;
 }
 

@@ -2,95 +2,16 @@
 #include "scene/param_parser.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include "scene/directives.h"
 #include "scene/number.h"
-#include "spectrum/spectrum.h"
 
 namespace pbrtmedia {
-
-struct ParamType {
-  enum class Spectral { No, Rgb, Xyz, BlackBody, Samples };
-  std::string_view keyword;
-  ParamKind kind;
-  std::uint32_t perElement = 1;
-  bool words = false;  ///< values are quoted strings
-  Spectral spectral = Spectral::No;
-};
-
 namespace {
-
-using Spectral = ParamType::Spectral;
-constexpr std::array kTypes{ParamType{"blackbody", ParamKind::Spectrum, 2, false, Spectral::BlackBody},
-                            ParamType{"bool", ParamKind::Bool, 1, true},
-                            ParamType{"color", ParamKind::Spectrum, 3, false, Spectral::Rgb},
-                            ParamType{"float", ParamKind::Float},
-                            ParamType{"integer", ParamKind::Integer},
-                            ParamType{"normal", ParamKind::Normal, 3},
-                            ParamType{"point", ParamKind::Point3, 3},
-                            ParamType{"point2", ParamKind::Point2, 2},
-                            ParamType{"point3", ParamKind::Point3, 3},
-                            ParamType{"rgb", ParamKind::Spectrum, 3, false, Spectral::Rgb},
-                            ParamType{"spectrum", ParamKind::Spectrum, 2, false, Spectral::Samples},
-                            ParamType{"string", ParamKind::String, 1, true},
-                            ParamType{"texture", ParamKind::Texture, 1, true},
-                            ParamType{"vector", ParamKind::Vector3, 3},
-                            ParamType{"vector2", ParamKind::Vector2, 2},
-                            ParamType{"vector3", ParamKind::Vector3, 3},
-                            ParamType{"xyz", ParamKind::Spectrum, 3, false, Spectral::Xyz}};
 
 constexpr std::size_t kBlock = 6144;      // numbers converted at once; a multiple of every element size
 constexpr std::size_t kMaxParams = 4096;  // per directive: real ones take some twenty
-
-const ParamType* findType(std::string_view keyword) {
-  const auto it =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& t) { return t.keyword == keyword; });
-  return it == kTypes.end() ? nullptr : &*it;
-}
-
-std::string suggestType(std::string_view found) {
-  if (found == "int") return "; did you mean \"integer\"?";
-  std::vector<std::string_view> names;
-  for (const ParamType& t : kTypes) names.push_back(t.keyword);
-  return suggestion(found, names);
-}
-
-/// The first word of `text` from `i` on, and `i` behind it.
-std::string_view word(std::string_view text, std::size_t& i) {
-  const std::size_t start = std::min(text.find_first_not_of(" \t", i), text.size());
-  i = std::min(text.find_first_of(" \t", start), text.size());
-  return text.substr(start, i - start);
-}
-
-/// Whether a quoted token in the wrong place looks like the start of the next parameter.
-bool looksLikeDeclaration(std::string_view raw) {
-  if (raw.size() < 2) return false;
-  const std::string_view text = raw.substr(1, raw.size() - 2);
-  std::size_t i = 0;
-  return findType(word(text, i)) && !word(text, i).empty();
-}
-
-bool looksLikeNumber(std::string_view raw) {
-  return !raw.empty() && raw.find_first_of("0123456789") <= 2 && (raw[0] < 'A' || raw[0] > 'Z');
-}
-
-std::string wrongNumber(std::string_view raw, NumberStatus status) {
-  std::string message = "found " + shown(raw);
-  if (status == NumberStatus::TooLarge) return message + ", which is too large";
-  std::string lower(raw.substr(0, 10));
-  for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  const std::size_t sign = !lower.empty() && (lower[0] == '-' || lower[0] == '+') ? 1 : 0;
-  const auto starts = [&](std::string_view s) { return std::string_view(lower).substr(sign, s.size()) == s; };
-  if (starts("inf") || starts("nan")) return message + ", expected a finite number";
-  if (starts("0x")) return message + ", expected a decimal number";
-  if (raw.find('#') != raw.npos) return message + ", expected a number; a comment needs a blank before its #";
-  if (raw.find(',') != raw.npos) return message + ", expected numbers separated by blanks";
-  return message + ", expected a number";
-}
 
 bool convert(const Token& token, float& value, std::string& why) {
   const NumberStatus status = parseFloat(token.raw, value);
@@ -109,17 +30,19 @@ struct ParamParser::Values {
 };
 
 ParamParser::ParamParser(TokenStream& tokens, Diagnostics& diagnostics, bool readFiles)
-    : tokens_(tokens), diagnostics_(diagnostics), readFiles_(readFiles) {
+    : tokens_(tokens), diagnostics_(diagnostics), spectra_(diagnostics, readFiles) {
   floatBlock_.reserve(kBlock);
   intBlock_.reserve(kBlock);
 }
 
+std::string ParamParser::whatOf(const Values& v) { return "parameter " + inQuotes(v.declaration) + ": "; }
+
 void ParamParser::problem(const Values& v, const SourceLocation& at, const std::string& message) {
-  diagnostics_.error(at, "parameter " + inQuotes(v.declaration) + ": " + message);
+  diagnostics_.error(at, whatOf(v) + message);
 }
 
 void ParamParser::lenientProblem(const Values& v, const SourceLocation& at, const std::string& message) {
-  diagnostics_.lenientError(at, "parameter " + inQuotes(v.declaration) + ": " + message);
+  diagnostics_.lenientError(at, whatOf(v) + message);
 }
 
 ParamList ParamParser::parse(const InputFolders& folders) {
@@ -144,10 +67,10 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
   }
   const std::string text = unescaped(declaration.raw, v.param.declaredAt);
   std::size_t i = 0;
-  const std::string typeName(word(text, i));
-  v.param.name = word(text, i);
-  const std::string extra(word(text, i));
-  v.type = findType(typeName);
+  const std::string typeName(nextWord(text, i));
+  v.param.name = nextWord(text, i);
+  const std::string extra(nextWord(text, i));
+  v.type = findParamType(typeName);
   v.declaration = shown(text);
   if (v.param.name.empty()) {
     diagnostics_.error(v.param.declaredAt, "found " + inQuotes(v.declaration) +
@@ -155,7 +78,7 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
     v.type = nullptr;
   } else if (!v.type) {
     diagnostics_.error(v.param.declaredAt, "parameter " + inQuotes(v.declaration) + ": unknown type \"" +
-                                               shown(typeName) + '"' + suggestType(typeName));
+                                               shown(typeName) + '"' + suggestParamType(typeName));
   } else if (!extra.empty()) {
     lenientProblem(v, v.param.declaredAt,
                    "found " + inQuotes(shown(extra)) + " after the name, which PBRT-v3 ignores");
@@ -171,7 +94,7 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
 
   const Token& first = tokens_.peek();
   const SourceLocation firstAt = tokens_.locate(first);
-  const std::string what = "parameter " + inQuotes(v.declaration) + ": ";
+  const std::string what = whatOf(v);
   const bool strings = first.kind == Token::Kind::String;
   if (first.kind == Token::Kind::Unclosed)
     throw SceneError(firstAt, "the string has no closing \" on its line");
@@ -188,7 +111,8 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
   if (first.kind == Token::Kind::Word && findDirective(first.raw)) {
     throw SceneError(firstAt, what + "found the directive " + shown(first.raw) + ", expected a value");
   }
-  if (!isEmpty && strings != v.type->words && !(strings && v.type->spectral == Spectral::Samples)) {
+  if (!isEmpty && strings != v.type->words &&
+      !(strings && v.type->spectral == ParamType::Spectral::Samples)) {
     if (v.type->kind == ParamKind::Bool) {
       problem(v, firstAt, "found " + shown(first.raw) + ", expected \"true\" or \"false\" with quotes");
     } else {
@@ -199,7 +123,7 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
   }
   bool good;
   if (strings || (isEmpty && v.type->words)) {
-    good = readStrings(v) && (v.type->words || spectrumFiles(v, folders));
+    good = readStrings(v) && (v.type->words || spectra_.fromFiles(v.param, folders, whatOf(v)));
   } else {
     good = readNumbers(v);
   }
@@ -346,46 +270,7 @@ bool ParamParser::readNumbers(Values& v) {
                        std::to_string(v.type->perElement));
     spectral.resize(spectral.size() - std::min(excess, spectral.size()));
   }
-  return v.type->kind != ParamKind::Spectrum || finishSpectrum(v, spectral);
-}
-
-bool ParamParser::finishSpectrum(Values& v, const std::vector<float>& n) {
-  auto& colours = v.param.values.emplace<std::vector<Rgb>>();
-  const std::size_t per = v.type->perElement;
-  std::size_t i = 0;
-  try {
-    if (v.type->spectral == Spectral::Samples) {
-      std::vector<SpectralSample> samples;
-      for (; i + 1 < n.size(); i += 2) samples.push_back({n[i], n[i + 1]});
-      i = 0;
-      v.param.tokensPerElement = static_cast<std::uint32_t>(
-          std::clamp<std::size_t>(n.size(), 1, std::numeric_limits<std::uint32_t>::max()));
-      if (!samples.empty()) colours.push_back(sampledSpectrumToRgb(std::move(samples)));
-    } else {
-      for (; i + per <= n.size(); i += per) {
-        switch (v.type->spectral) {
-          case Spectral::BlackBody:
-            colours.push_back(blackbodyToRgb(n[i], n[i + 1]));
-            break;
-          case Spectral::Xyz:
-            colours.push_back(xyzToRgb({n[i], n[i + 1], n[i + 2]}));
-            break;
-          default:
-            colours.emplace_back(n[i], n[i + 1], n[i + 2]);
-            break;
-        }
-      }
-    }
-  } catch (const std::invalid_argument& e) {
-    problem(v, v.param.locationOf(i / per), e.what());
-    return false;
-  }
-  for (std::size_t k = 0; k < colours.size(); ++k) {
-    if (colours[k].isFinite()) continue;
-    problem(v, v.param.locationOf(k), "the spectrum has no finite RGB value");
-    return false;
-  }
-  return true;
+  return v.type->kind != ParamKind::Spectrum || spectra_.fromNumbers(v.param, *v.type, spectral, whatOf(v));
 }
 
 bool ParamParser::readStrings(Values& v) {
@@ -426,41 +311,6 @@ bool ParamParser::readStrings(Values& v) {
           "found " + inQuotes(shown(s)) + R"(, expected "true" or "false"; PBRT-v3 takes it as false)");
     }
     bools.push_back(s == "true" ? 1 : 0);
-  }
-  return true;
-}
-
-/// Turns the file names read into colours.
-bool ParamParser::spectrumFiles(Values& v, const InputFolders& folders) {
-  const auto names = std::get<std::vector<std::string>>(std::move(v.param.values));
-  auto& colours = v.param.values.emplace<std::vector<Rgb>>();
-  v.param.tokensPerElement = 1;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!readFiles_) {
-      colours.emplace_back();
-      continue;
-    }
-    const SourceLocation at = v.param.locationOf(i);
-    const auto found = folders.locate(names[i]);
-    if (!found) {
-      problem(v, at, "there is no file \"" + shown(folders.underBase(names[i]).string()) + '"');
-      return false;
-    }
-    if (found->besideIncluder) {
-      diagnostics_.warning(at, "using \"" + found->path.string() + "\"; PBRT-v3 looks for \"" +
-                                   folders.underBase(names[i]).string() + '"');
-    }
-    const auto [cached, isNew] = spectra_.try_emplace(found->path);
-    try {
-      if (isNew) cached->second = sampledSpectrumToRgb(readSpectrumFile(found->path));
-    } catch (const SceneError& e) {
-      diagnostics_.add(e);
-      diagnostics_.note(at, "the file is named here");
-    } catch (const std::invalid_argument& e) {
-      problem(v, at, '"' + found->path.string() + "\": " + e.what());
-    }
-    if (!cached->second) return false;
-    colours.push_back(*cached->second);
   }
   return true;
 }

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/param_list.h"
+#include "scene/spectrum_values.h"
 #include "scene/token_stream.h"
 
 namespace pbrtmedia {
-
-struct ParamType;  // a row of the table of type keywords
 
 /// Reads parameter lists (reference 3). Spectra become RGB here.
 class ParamParser {
@@ -32,18 +28,17 @@ class ParamParser {
   template <class T>
   bool appendNumber(Values& v, const Token& token, std::vector<T>& block);
   bool readStrings(Values& v);
-  bool finishSpectrum(Values& v, const std::vector<float>& numbers);
-  bool spectrumFiles(Values& v, const InputFolders& folders);
   void skipValues(bool bracketed);
+  /// How messages about the parameter begin.
+  static std::string whatOf(const Values& v);
   void problem(const Values& v, const SourceLocation& at, const std::string& message);
   void lenientProblem(const Values& v, const SourceLocation& at, const std::string& message);
 
   TokenStream& tokens_;
   Diagnostics& diagnostics_;
-  bool readFiles_;
+  SpectrumValues spectra_;
   std::vector<float> floatBlock_;
   std::vector<int> intBlock_;
-  std::map<std::filesystem::path, std::optional<Rgb>> spectra_;  ///< files read before; nothing: unusable
 };
 
 }  // namespace pbrtmedia

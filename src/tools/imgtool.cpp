@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <functional>
-#include <iostream>
 #include <map>
 #include <string>
 
-#include "base/diagnostics.h"
 #include "tools/imgtool_assemble.h"
 #include "tools/imgtool_cat.h"
 #include "tools/imgtool_convert.h"
 #include "tools/imgtool_diff.h"
 #include "tools/imgtool_info.h"
 #include "tools/imgtool_merge.h"
+#include "tools/run_tool.h"
 
 // Each `addX` declares one command and stores in `run` what it does; the options live as long as the program.
 
@@ -21,17 +19,17 @@ namespace {
 
 using Run = std::function<int()>;
 
-/// --half, --float and --compression of commands that write EXR.
+/// --pixeltype and --compression of commands that write EXR; the same words as those of pbrt.
 void addWriteOptions(CLI::App* command, WriteOptions& write) {
-  CLI::Option* half = command->add_flag_callback(
-      "--half", [&write] { write.pixelType = PixelType::Half; }, "EXR: 16-bit values");
-  CLI::Option* full = command->add_flag_callback(
-      "--float", [&write] { write.pixelType = PixelType::Float; }, "EXR: 32-bit values");
-  half->excludes(full);
-  const std::map<std::string, ExrCompression> names{
+  const std::map<std::string, PixelType> pixelTypes{{"half", PixelType::Half}, {"float", PixelType::Float}};
+  command->add_option("--pixeltype", write.pixelType, "EXR: half (default) or float numbers")
+      ->transform(CLI::CheckedTransformer(pixelTypes))
+      ->type_name("TYPE");
+  const std::map<std::string, ExrCompression> compressions{
       {"none", ExrCompression::None}, {"zip", ExrCompression::Zip}, {"piz", ExrCompression::Piz}};
-  command->add_option("--compression", write.compression, "EXR: none, zip (default) or piz")
-      ->transform(CLI::CheckedTransformer(names, CLI::ignore_case));
+  command->add_option("--compression", write.compression, "EXR: zip (default), piz or none")
+      ->transform(CLI::CheckedTransformer(compressions))
+      ->type_name("NAME");
 }
 
 void addInfo(CLI::App& app, InfoOptions& o, Run& run) {
@@ -124,11 +122,6 @@ void addAssemble(CLI::App& app, AssembleOptions& o, Run& run) {
   c->callback([&o, &run] { run = [&o] { return runAssemble(o); }; });
 }
 
-int reportError(const std::string& where, const std::string& what) {
-  std::cerr << "imgtool: " << (where.empty() ? "" : where + ": ") << "error: " << what << '\n';
-  return 1;
-}
-
 }  // namespace
 
 int imgtoolMain(int argc, char** argv) {
@@ -147,21 +140,7 @@ int imgtoolMain(int argc, char** argv) {
   addCat(app, cat, run);
   addMerge(app, merge, run);
   addAssemble(app, assemble, run);
-  try {
-    app.parse(argc, argv);
-    const int status = run();
-    std::cout.flush();
-    if (!std::cout) return reportError("", "cannot write to standard output");
-    return status;
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 1;
-  } catch (const SceneError& e) {
-    return reportError(e.location().toString(), e.what());
-  } catch (const std::bad_alloc&) {
-    return reportError("", "not enough memory");
-  } catch (const std::exception& e) {
-    return reportError("", e.what());
-  }
+  return runTool(app, argc, argv, run);
 }
 
 }  // namespace pbrtmedia

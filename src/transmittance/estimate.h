@@ -29,9 +29,10 @@ constexpr double maxOf(const Channels<N>& c) {
 /// What one segment cost, and what it revealed about its bounds. Kept in registers while tracking and added
 /// to the render's counters once.
 struct LookupTally {
-  std::uint32_t lookups = 0;         ///< density look-ups spent: the cost axis of every plot
-  std::uint32_t nullCollisions = 0;  ///< tentative collisions that were null
-  std::uint32_t violations = 0;      ///< look-ups that found a density above its bound
+  std::uint64_t lookups = 0;         ///< density look-ups spent: the cost axis of every plot
+  std::uint64_t nullCollisions = 0;  ///< tentative collisions that were null
+  std::uint64_t violations = 0;      ///< look-ups that found a density above its bound
+  std::uint64_t capped = 0;          ///< estimates that a limit on look-ups cut short
   double worstRatio = 0;             ///< largest density / bound among them; infinite for a bound of 0
 
   void noteViolation(double density, double bound) {
@@ -42,6 +43,7 @@ struct LookupTally {
     counters.densityLookups += lookups;
     counters.nullCollisions += nullCollisions;
     counters.boundViolations += violations;
+    counters.cappedEstimates += capped;
     counters.worstBoundRatio = std::max(counters.worstBoundRatio, worstRatio);
   }
 };

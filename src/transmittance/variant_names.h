@@ -10,6 +10,16 @@
 
 namespace pbrtmedia {
 
+/// The variant of the alternatives of `Variant`, then `More`.
+template <class Variant, class... More>
+struct AppendVariant;
+template <class... T, class... More>
+struct AppendVariant<std::variant<T...>, More...> {
+  using type = std::variant<T..., More...>;
+};
+template <class Variant, class... More>
+using AppendedVariant = typename AppendVariant<Variant, More...>::type;
+
 /// The keywords of a variant whose alternatives each have `kName`, in order.
 template <class Variant>
 std::vector<std::string_view> alternativeNames() {

@@ -10,8 +10,8 @@ RenderCounters numbered(std::uint64_t first) {
   RenderCounters c;
   for (std::uint64_t* n :
        {&c.cameraSamples, &c.rays, &c.shadowRays, &c.densityLookups, &c.nullCollisions, &c.mediumScatterings,
-        &c.surfaceScatterings, &c.boundViolations, &c.mediumMismatches, &c.boundaryRepairs, &c.dropped[0],
-        &c.dropped[1], &c.dropped[2]})
+        &c.surfaceScatterings, &c.boundViolations, &c.cappedEstimates, &c.mediumMismatches,
+        &c.boundaryRepairs, &c.dropped[0], &c.dropped[1], &c.dropped[2]})
     *n = first++;
   return c;
 }
@@ -22,13 +22,13 @@ TEST(RenderCounters, AddsEveryCount) {
   std::uint64_t expected = 1100;
   for (const std::uint64_t n :
        {c.cameraSamples, c.rays, c.shadowRays, c.densityLookups, c.nullCollisions, c.mediumScatterings,
-        c.surfaceScatterings, c.boundViolations, c.mediumMismatches, c.boundaryRepairs, c.dropped[0],
-        c.dropped[1], c.dropped[2]}) {
+        c.surfaceScatterings, c.boundViolations, c.cappedEstimates, c.mediumMismatches, c.boundaryRepairs,
+        c.dropped[0], c.dropped[1], c.dropped[2]}) {
     EXPECT_EQ(n, expected);
     expected += 2;
   }
   // A new counter must be added here and in `add`.
-  EXPECT_EQ(sizeof(RenderCounters), 14 * sizeof(std::uint64_t));
+  EXPECT_EQ(sizeof(RenderCounters), 15 * sizeof(std::uint64_t));
 }
 
 TEST(RenderCounters, KeepsTheWorstBoundRatio) {

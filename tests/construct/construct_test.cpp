@@ -120,6 +120,54 @@ TEST(ConstructCameraMedium, WarnsWhenTheSceneSaysOtherwise) {
   EXPECT_EQ(warning->location.line, 1u);
 }
 
+// ---- Light from infinitely far in a medium without end
+
+TEST(ConstructEndlessMedium, WarnsOfLightsAtInfinityAndNamesBoth) {
+  const std::string lights =
+      " LightSource \"infinite\" LightSource \"distant\" LightSource \"point\" \"point from\" [ 0 1 0 ] ";
+  const Attempt fog =
+      attempt(kOnly + kFog + "MediumInterface \"\" \"fog\" WorldBegin\n" + lights + "WorldEnd");
+  for (const char* light : {"LightSource \"infinite\"", "LightSource \"distant\""}) {
+    const Diagnostic* warning = fog.find(Severity::Warning, light);
+    ASSERT_NE(warning, nullptr) << fog.messages();
+    EXPECT_NE(warning->message.find("\"fog\", which has no end"), std::string::npos) << fog.messages();
+    EXPECT_EQ(warning->location.line, 2u);
+  }
+  EXPECT_EQ(fog.diagnostics.all().size(), 2u) << fog.messages();
+  // What the warning says is so: nothing but the point light is left.
+  EXPECT_EQ(
+      brightness(kOnly + kFog + "MediumInterface \"\" \"fog\" WorldBegin LightSource \"infinite\" WorldEnd"),
+      0);
+}
+
+TEST(ConstructEndlessMedium, IsFoundBehindBoundariesToo) {
+  const Attempt clearing =
+      attempt(kOnly + kFog +
+              "WorldBegin LightSource \"infinite\" MediumInterface \"\" \"fog\" Material "
+              "\"none\" Shape \"sphere\" \"float radius\" 2 MediumInterface \"\" \"\" "
+              "WorldEnd");
+  EXPECT_TRUE(clearing.warns("\"fog\", which has no end")) << clearing.messages();
+}
+
+TEST(ConstructEndlessMedium, SaysNothingWhereLightGetsThrough) {
+  const std::string light = "LightSource \"infinite\" ";
+  const std::string shell =
+      "AttributeBegin MediumInterface \"fog\" \"\" Material \"none\" Shape \"sphere\" \"float radius\" 2 "
+      "AttributeEnd ";
+  EXPECT_TRUE(attempt(kOnly + kFog + "WorldBegin " + light + shell + "WorldEnd").isSilent());
+  EXPECT_TRUE(attempt(kOnly + kFog + "WorldBegin " + light + shell + "MediumInterface \"\" \"fog\" WorldEnd")
+                  .isSilent())
+      << "the fog that is given as the camera's ends at the sphere";
+  const std::string clear =
+      "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 0 0 0 ] \"rgb sigma_s\" [ 0 "
+      "0 0 "
+      "] ";
+  EXPECT_TRUE(
+      attempt(kOnly + clear + "MediumInterface \"\" \"fog\" WorldBegin " + light + "WorldEnd").isSilent());
+  EXPECT_TRUE(attempt(kOnly + kFog + "MediumInterface \"\" \"fog\" WorldBegin LightSource \"point\" WorldEnd")
+                  .isSilent());
+}
+
 // ---- Surfaces without material
 
 TEST(ConstructNoMaterial, DoesNotBlockTheLight) {

@@ -25,10 +25,11 @@ Attempt under(const std::string& transformations) {
 TEST(ConstructMedium, EveryParameterHasItsEffect) {
   std::vector<Effect> effects;
   for (const std::string& type : {kHomogeneous, kGrid}) {
-    for (const std::string p :
-         {"\"rgb sigma_a\" [ 1 2 3 ]", "\"rgb sigma_s\" [ 1 2 3 ]", "\"float scale\" 0.1", "\"float g\" 0.5",
-          "\"string preset\" \"Ketchup\"", "\"string overlap\" \"add\"", "\"string overlap\" \"priority\"",
-          "\"integer priority\" 3"}) {
+    for (const std::string p : {"\"rgb sigma_a\" [ 1 2 3 ]", "\"rgb sigma_s\" [ 1 2 3 ]",
+                                "\"float scale\" 0.1", "\"float g\" 0.5", "\"string phase\" \"rayleigh\"",
+                                "\"string phase\" [ \"henyeygreenstein\" \"rayleigh\" ] \"float g\" 0.7",
+                                "\"string preset\" \"Ketchup\"", "\"string overlap\" \"add\"",
+                                "\"string overlap\" \"priority\"", "\"integer priority\" 3"}) {
       effects.push_back({type, type + p});
     }
   }
@@ -42,6 +43,10 @@ TEST(ConstructMedium, EveryParameterHasItsEffect) {
   expectSame({{kHomogeneous, kHomogeneous +
                                  "\"rgb sigma_a\" [ .0011 .0024 .014 ] \"rgb sigma_s\" [ 2.55 3.21 3.77 ] "
                                  "\"float g\" 0 \"float scale\" 1 \"string overlap\" \"boundary\""},
+              {kHomogeneous + "\"float g\" .5",
+               kHomogeneous + "\"string phase\" [ \"henyeygreenstein\" \"isotropic\" ] \"float g\" .5 "
+                              "\"float phaseweight\" [ 1 0 ]"},
+              {kHomogeneous, kHomogeneous + "\"string phase\" \"isotropic\""},
               {kHomogeneous, kHomogeneous + "\"string preset\" \"Wholemilk\""},
               {kHomogeneous + "\"integer priority\" 2",
                kHomogeneous + "\"string overlap\" \"priority\" \"integer priority\" 2"},
@@ -78,6 +83,17 @@ TEST(ConstructMedium, SaysWhatIsWrongAndWhere) {
        {kHomogeneous + "\"string overlap\" \"add\" \"integer priority\" 1",
         "needs \"string overlap\" \"priority\"", ""},
        {kHomogeneous + "\"float priority\" 1", "found type float, expected integer", ""},
+       {kHomogeneous + "\"string phase\" \"raleigh\"",
+        "unknown phase function \"raleigh\"; did you mean \"rayleigh\"?", ""},
+       {kHomogeneous + "\"string phase\" \"henyeygreenstein\" \"float g\" [ .1 .2 ]",
+        "\"g\": found 2 numbers, expected one for each \"henyeygreenstein\": 1", ""},
+       {kHomogeneous + "\"string phase\" \"henyeygreenstein\" \"float g\" 1", "expected in (-1, 1)", ""},
+       {kHomogeneous + "\"string phase\" [ \"rayleigh\" \"isotropic\" ] \"float phaseweight\" 1",
+        "\"phaseweight\": found 1 numbers, expected one for each phase function: 2", ""},
+       {kHomogeneous + "\"string phase\" [ \"rayleigh\" \"isotropic\" ] \"float phaseweight\" [ 0 0 ]",
+        "all weights are 0", ""},
+       {kHomogeneous + "\"string phase\" [ \"rayleigh\" \"isotropic\" ] \"float phaseweight\" [ -1 2 ]",
+        "found a negative weight", ""},
        {kHomogeneous + "\"integer nx\" 1", "unknown parameter \"nx\"", ""},
        {"\"string type\" \"heterogeneous\"", "parameter \"float density\" is missing", "t.pbrt:2:1"},
        {"\"string type\" \"heterogeneous\" \"integer nx\" 2 \"float density\" [ 1 1 1 ]",

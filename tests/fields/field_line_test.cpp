@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "base/rng.h"
 #include "fields/constant_field.h"
@@ -154,6 +155,36 @@ TEST(FieldLine, IsNothingWhereThereIsNoLength) {
   EXPECT_TRUE(misses({-1, .5f, .5f}, {1, 0, 0}, 0, 1));
   const ConstantField clear({0.0f}, Transform());
   EXPECT_FALSE(FieldLine<ConstantField>::clip(clear, clear.superVoxels(), {{-1, .5f, .5f}, {1, 0, 0}, 0, 9}));
+}
+
+TEST(FieldLine, IsNothingOrStaysInsideWhereASegmentIsNotFinite) {
+  const GridField field(randomGrid(6, 7, 8, GridBorder::Clamp, 0, 11),
+                        Transform::rotate(30, {1, 2, 3}) * Transform::scale(2, 3, .5));
+  const SuperVoxels bounds = field.superVoxels(1);
+  constexpr float kBad[] = {
+      std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, 3e38f, -1e-42f, 0};
+  constexpr double kBadT[] = {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity, 1e300, 0, .25};
+  Rng rng(12);
+  int lines = 0;
+  for (int n = 0; n < 100000; ++n) {
+    Segment s{{rng.uniform(), rng.uniform(), rng.uniform() / 4}, {}, 0, kInfinity};
+    for (std::size_t a = 0; a < 3; ++a) {
+      s.d[a] = rng.uniform() < .3f ? kBad[rng.uniformInt(6)] : 2 * rng.uniform() - 1;
+      if (rng.uniform() < .1f) s.o[a] = kBad[rng.uniformInt(6)];
+    }
+    if (rng.uniform() < .2f) s.tMin = kBadT[rng.uniformInt(6)];
+    if (rng.uniform() < .2f) s.tMax = kBadT[rng.uniformInt(6)];
+    const auto line = FieldLine<GridField>::clip(field, bounds, s);
+    if (!line) continue;
+    ++lines;
+    const double l = line->length();
+    ASSERT_TRUE(l > 0 && std::isfinite(l));
+    const double points[] = {0, l, std::nextafter(l, 0.0), l / 2, l / 3};
+    float out[5];
+    line->densities(points, out);
+    for (const float density : out) ASSERT_TRUE(density >= 0 && density <= bounds.maximum());
+  }
+  EXPECT_GT(lines, 10000);
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ TEST(ConstantField, IsItsDensityInsideTheBoxOnly) {
   const ConstantField field({2.0f, {1, 1, 1}, {3, 2, 0}}, Transform::translate({0, 0, 5}));
   EXPECT_EQ(field.densityAt({2, 1.5f, 5.5f}), 2.0f);
   EXPECT_EQ(field.densityAt({2, 1.5f, 6.5f}), 0.0f);
-  EXPECT_EQ(field.superVoxels().at(0, 0, 0), (SuperVoxel{2, 2}));
+  EXPECT_EQ(field.superVoxels().at(0, 0, 0), (SuperVoxel{2, 2, 2}));
 }
 
 TEST(ConstantField, RefusesWhatIsNoDensity) {

@@ -66,7 +66,7 @@ TEST(SuperVoxels, AreExactWhereTheDensityIsConstant) {
   const GridField field(constantGrid(20, GridBorder::Clamp, .3f), Transform());
   const SuperVoxels bounds = field.superVoxels(2);
   for (std::int64_t i = 0; i < bounds.shape().count.x; ++i) {
-    EXPECT_EQ(bounds.at(i, 2, 3), (SuperVoxel{.3f, .3f}));
+    EXPECT_EQ(bounds.at(i, 2, 3), (SuperVoxel{.3f, .3f, .3f}));
   }
 }
 
@@ -90,15 +90,17 @@ TEST(SuperVoxels, JoinNeighbouringEmptyCellsIntoOneInterval) {
       gridOf(64, 1, 1, GridBorder::Zero, [](int i, int, int) { return i == 0 || i == 63 ? 1.0f : 0.0f; }),
       Transform());
   const SuperVoxels bounds = field.superVoxels(0);
-  std::vector<float> uppers;
+  std::vector<float> uppers, means;
   const double infinity = std::numeric_limits<double>::infinity();
   bounds.walk({{.5, 1, 1}, {1, 0, 0}, {1, infinity, infinity}}, 64, [&](double, double, const SuperVoxel& b) {
     uppers.push_back(b.upper);
+    means.push_back(b.mean);
     return true;
   });
   // Half a gap and a whole one on either side; one stretch between them.
   ASSERT_EQ(uppers.size(), 5u);
   EXPECT_EQ(uppers[2], 0.0f);
+  EXPECT_EQ(means[2], 0.0f);
 }
 
 TEST(SuperVoxels, StopWhereTheVisitorHasEnough) {

@@ -32,7 +32,11 @@ class WatchedMedium final : public Medium {
   explicit WatchedMedium(const LeakCase& c)
       : Medium("watched", {}),
         case_(c),
-        fog_({.name = "fog", .sigmaA = Rgb(0), .sigmaS = Rgb(2 / c.size), .g = 0, .overlap = {}}) {}
+        fog_({.name = "fog",
+              .sigmaA = Rgb(0),
+              .sigmaS = Rgb(2 / c.size),
+              .phase = {PhaseLobe{}},
+              .overlap = {}}) {}
   std::string_view typeName() const override { return "watched"; }
   Rgb transmittance(const Segment& s, Rng& rng, RenderCounters& counters) const override {
     watch(s);

@@ -13,8 +13,11 @@ namespace {
 using Mode = OverlapRule::Mode;
 
 std::unique_ptr<Medium> medium(std::string name, Mode mode, int priority = 0) {
-  return std::make_unique<HomogeneousMedium>(HomogeneousMedium::Params{
-      .name = std::move(name), .sigmaA = Rgb(1), .sigmaS = Rgb(0), .g = 0, .overlap = {mode, priority}});
+  return std::make_unique<HomogeneousMedium>(HomogeneousMedium::Params{.name = std::move(name),
+                                                                       .sigmaA = Rgb(1),
+                                                                       .sigmaS = Rgb(0),
+                                                                       .phase = {PhaseLobe{}},
+                                                                       .overlap = {mode, priority}});
 }
 
 TEST(MediumState, StartsAsVacuum) {

@@ -38,8 +38,11 @@ class SceneKit {
   SceneBuilder builder;
 
   const Medium* fog(std::string name, Rgb sigmaA, Rgb sigmaS, OverlapRule overlap = {}) {
-    return builder.own(std::make_unique<HomogeneousMedium>(HomogeneousMedium::Params{
-        .name = std::move(name), .sigmaA = sigmaA, .sigmaS = sigmaS, .g = 0, .overlap = overlap}));
+    return builder.own(std::make_unique<HomogeneousMedium>(HomogeneousMedium::Params{.name = std::move(name),
+                                                                                     .sigmaA = sigmaA,
+                                                                                     .sigmaS = sigmaS,
+                                                                                     .phase = {PhaseLobe{}},
+                                                                                     .overlap = overlap}));
   }
   const Material* matte(float kd) {
     const RgbTexture* texture = builder.own(std::make_unique<ConstantTexture<Rgb>>(Rgb(kd)));

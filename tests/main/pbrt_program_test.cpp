@@ -122,6 +122,57 @@ TEST_F(Pbrt, RejectsUnknownOptionsWithTheNearestName) {
   EXPECT_NE(r.output.find("nthreads"), std::string::npos) << r.output;
 }
 
+TEST_F(Pbrt, RejectsValuesThatMeanNothing) {
+  folder_.write("a.pbrt", kScene);
+  for (const char* options : {"--time nan", "--time inf", "--time 0", "--time -3", "--spp 0", "--spp 1.5",
+                              "--nthreads -1", "--tile-size 0", "--progress sometimes", "--pixeltype quarter",
+                              "--compression rar", "--minloglevel 9", "--cropwindow 0 2 0 1",
+                              "--cropwindow 0 nan 0 1", "--cropwindow 0 1 0", "--seed x"}) {
+    const ProcessResult r = pbrt(std::string(options) + " a.pbrt");
+    EXPECT_EQ(r.status, 1) << options << '\n' << r.output;
+    EXPECT_NE(r.output.find("error"), std::string::npos) << options << '\n' << r.output;
+  }
+  EXPECT_EQ(folder_.fileCount(), 1u) << "nothing may be written";
+}
+
+TEST_F(Pbrt, CropsAsTheCommandLineSaysUnlessTheSceneDoes) {
+  folder_.write("a.pbrt", kScene);
+  ASSERT_EQ(pbrt("--cropwindow 0 0.5 0.25 1 a.pbrt").status, 0);
+  const Image cropped = readImage(folder_.path() / "named.exr");
+  EXPECT_EQ(cropped.width(), 8);
+  EXPECT_EQ(cropped.height(), 6);
+  std::string own = kScene;
+  own.insert(own.find("\"string filename\""), "\"float cropwindow\" [ 0 1 0 0.5 ] ");
+  folder_.write("own.pbrt", own);
+  const ProcessResult r = pbrt("--cropwindow 0 0.5 0.25 1 own.pbrt");
+  EXPECT_EQ(r.status, 0);
+  EXPECT_NE(r.output.find("wins over --cropwindow"), std::string::npos) << r.output;
+  EXPECT_EQ(readImage(folder_.path() / "named.exr").width(), 16);
+}
+
+TEST_F(Pbrt, TellsWhatItBuiltAndWarnsUnlessQuiet) {
+  folder_.write("a.pbrt",
+                "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\nWorldBegin\n"
+                "MakeNamedMedium \"spare\" \"string type\" \"homogeneous\"\n"
+                "Shape \"sphere\"\nWorldEnd\n");
+  const ProcessResult verbose = pbrt("--verbose --spp 1 --outfile o.exr a.pbrt");
+  EXPECT_EQ(verbose.status, 0) << verbose.output;
+  EXPECT_NE(verbose.output.find("medium \"spare\": not used, left out"), std::string::npos) << verbose.output;
+  EXPECT_NE(verbose.output.find("no lights"), std::string::npos) << verbose.output;
+  EXPECT_EQ(pbrt("--quiet --spp 1 --outfile o.exr a.pbrt").output, "");
+  folder_.write("bad.pbrt", "WorldBegin\nShape \"sphear\"\nWorldEnd\n");
+  const ProcessResult bad = pbrt("--quiet --outfile o.exr bad.pbrt");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_NE(bad.output.find("sphear"), std::string::npos) << "errors stay: " << bad.output;
+}
+
+TEST_F(Pbrt, SaysWhenThereIsNothingToRender) {
+  folder_.write("options.pbrt", "Film \"image\"\n");
+  const ProcessResult r = pbrt("options.pbrt");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_NE(r.output.find("WorldBegin"), std::string::npos) << r.output;
+}
+
 TEST_F(Pbrt, ShowsEveryProblemOfASceneAtOnceAndWritesNothing) {
   folder_.write("bad.pbrt",
                 "Film \"image\" \"integer xresolutoin\" 16\n"
@@ -184,6 +235,20 @@ TEST_F(Pbrt, WritesStatisticsAsJson) {
   EXPECT_GT(render.at("peakMemoryBytes").get<std::size_t>(), 1u << 20);
 }
 
+TEST_F(Pbrt, ChecksTheFolderOfTheStatisticsBeforeRendering) {
+  folder_.write("a.pbrt", kScene);
+  const ProcessResult r = pbrt("--stats no/such/s.json a.pbrt");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_NE(r.output.find("no/such"), std::string::npos) << r.output;
+  EXPECT_FALSE(folder_.has("named.exr"));
+}
+
+TEST_F(Pbrt, WritesStatisticsOfScenesWhoseNameIsNoText) {
+  folder_.write("a\xff.pbrt", kScene);
+  EXPECT_EQ(pbrt("--stats s.json a$(printf '\\377').pbrt").status, 0);
+  EXPECT_EQ(nlohmann::json::parse(folder_.read("s.json")).at("renders").size(), 1u);
+}
+
 TEST_F(Pbrt, StopsAtTheTimeLimitWithAValidImage) {
   folder_.write("endless.pbrt", kEndless);
   const auto start = std::chrono::steady_clock::now();
@@ -194,6 +259,29 @@ TEST_F(Pbrt, StopsAtTheTimeLimitWithAValidImage) {
   EXPECT_EQ(firstPixel("endless.exr"), Rgb(0.5f, 0.25f, 1)) << "the image must be rightly normalised";
   EXPECT_TRUE(
       nlohmann::json::parse(folder_.read("s.json")).at("renders").at(0).at("interrupted").get<bool>());
+}
+
+TEST_F(Pbrt, ShowsALiveLineOnATerminalAndNoneWhenTold) {
+  folder_.write("endless.pbrt", kEndless);
+  const auto onTerminal = [&](const std::string& arguments) {
+    return run("cd '" + folder_.path().string() + "' && script -qec \"'" PBRT_PROGRAM "' " + arguments +
+               "\" /dev/null < /dev/null");
+  };
+  const ProcessResult live = onTerminal("--time 1 endless.pbrt");
+  EXPECT_EQ(live.status, 0) << live.output;
+  EXPECT_NE(live.output.find("\rendless.exr ["), std::string::npos) << live.output;
+  EXPECT_NE(live.output.find("samples/s"), std::string::npos) << live.output;
+  EXPECT_EQ(onTerminal("--progress none --time 1 endless.pbrt").output.find("samples/s"), std::string::npos);
+}
+
+TEST_F(Pbrt, PlainProgressIsALineNowAndThen) {
+  folder_.write("endless.pbrt", kEndless);
+  const ProcessResult r = pbrt("--progress plain --time 6 endless.pbrt");
+  EXPECT_EQ(r.status, 0) << r.output;
+  const std::size_t line = r.output.find("endless.exr:  ");
+  ASSERT_NE(line, std::string::npos) << r.output;
+  EXPECT_NE(r.output.find(" left, ", line), std::string::npos) << r.output;
+  EXPECT_EQ(r.output.find('\r'), std::string::npos) << "for logs: no redrawing";
 }
 
 TEST_F(Pbrt, WritesAValidImageOnInterrupt) {

@@ -239,9 +239,9 @@ TEST(GridMedium, RefusesBadParameters) {
   EXPECT_THROW(gridMedium(grid, Rgb(1), Rgb(kInfinity)), SceneError);
   auto params = withSigma<GridMediumParams>(Rgb(1), Rgb(1));
   params.grid = grid;
-  params.g = -1;
+  params.phase = {{PhaseLobe::Kind::HenyeyGreenstein, -1, 1}};
   EXPECT_THROW(makeGridMedium(params, Transform()), SceneError);
-  params.g = 0;
+  params.phase = {PhaseLobe{}};
   params.superVoxelPower = 99;
   EXPECT_THROW(makeGridMedium(params, Transform()), SceneError);
 }
@@ -252,9 +252,11 @@ TEST(GridMedium, DescribesItselfInOneLine) {
   const auto medium = makeGridMedium(params, Transform());
   EXPECT_EQ(medium->typeName(), "heterogeneous");
   EXPECT_EQ(medium->name(), "smoke");
+  const std::size_t bytes = 10 * 10 * 10 * sizeof(float) + 5 * 5 * 5 * sizeof(SuperVoxel);
   EXPECT_EQ(medium->describe(),
-            "grid 8 x 8 x 8, super-voxels 3 x 3 x 3 (0 empty), estimator ratio, sampler delta, 1 channel, "
-            "5000 bytes");
+            "grid 8 x 8 x 8, super-voxels 3 x 3 x 3 (0 empty), estimator ratio, sampler weighted-delta, 1 "
+            "channel, " +
+                std::to_string(bytes) + " bytes");
 }
 
 }  // namespace

@@ -19,7 +19,9 @@ using test::zTest;
 
 constexpr std::uint64_t kSeed = 20240610;
 
-HomogeneousMedium medium(Rgb sigmaA, Rgb sigmaS) { return HomogeneousMedium({"fog", sigmaA, sigmaS, 0, {}}); }
+HomogeneousMedium medium(Rgb sigmaA, Rgb sigmaS) {
+  return HomogeneousMedium({"fog", sigmaA, sigmaS, {PhaseLobe{}}, {}});
+}
 Segment ofLength(double length) { return {{1, 2, 3}, {0, 0, 1}, .5, .5 + length}; }
 
 TEST(HomogeneousMedium, FollowsBeerLambertOverTheWholeLadder) {
@@ -138,7 +140,7 @@ TEST(HomogeneousMedium, RefusesCoefficientsThatAreNone) {
   EXPECT_THROW(medium(Rgb(1), Rgb(1, std::numeric_limits<float>::quiet_NaN(), 1)), SceneError);
   EXPECT_THROW(medium(Rgb(kInfinity), Rgb(1)), SceneError);
   EXPECT_THROW(medium(Rgb(3e38f), Rgb(3e38f)), SceneError);
-  EXPECT_THROW(HomogeneousMedium({"fog", Rgb(1), Rgb(1), 1.5f, {}}), SceneError);
+  EXPECT_THROW(HomogeneousMedium({"fog", Rgb(1), Rgb(1), {PhaseLobe{.g = 1.5f}}, {}}), SceneError);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <random>
@@ -43,6 +44,30 @@ TEST(Number, FastPathEqualsCorrectRoundingOnRandomDecimals) {
     ASSERT_EQ(value, std::strtof(text.c_str(), nullptr)) << text;
   }
   EXPECT_GT(fast, kCount / 2);  // else nothing was tested
+}
+
+TEST(Number, FastPathTakesTheDigitsOfDoublesAndRoundsThemRight) {
+  std::mt19937_64 random(11);
+  std::size_t fast = 0;
+  constexpr int kCount = 100000;
+  for (int i = 0; i < kCount; ++i) {
+    // 17 digits, as doubles are printed to be read back: every other one as near to half-way between two
+    // floats as a double gets.
+    double value = std::ldexp(static_cast<double>(random() >> 11), -53 + static_cast<int>(random() % 20));
+    if (i % 2 == 1) {
+      const double half = (1 + 2 * static_cast<double>(random() >> 40)) * 0x1p-24;
+      const int steps = static_cast<int>(random() % 9) - 4;
+      value = half;
+      for (int k = 0; k < std::abs(steps); ++k) value = std::nextafter(value, steps > 0 ? 4.0 : 0.0);
+    }
+    char text[64];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    bool isFast;
+    const float read = fastFloat(text, isFast);
+    if (i % 2 == 0) fast += isFast;
+    ASSERT_EQ(read, std::strtof(text, nullptr)) << text;
+  }
+  EXPECT_GT(fast, kCount / 2 - kCount / 100);
 }
 
 TEST(Number, HalfWayCasesRoundOnce) {
@@ -104,12 +129,15 @@ TEST(Number, LexerReadsRunsAndStopsBeforeAnythingElse) {
   EXPECT_EQ(lexer.next().kind, Token::Kind::End);
 }
 
-TEST(Number, LexerLeavesDoubtfulNumbersToTheSlowPath) {
-  const std::string text = "1 16777217 2";
+TEST(Number, LexerConvertsInFullWhereTheFastPathMayBeWrong) {
+  const std::string text = "1 16777217 1.0000000596046447753906250000001 1e-60 2 1e39 3";
   Lexer lexer(text, 0, false);
   float out[8];
-  EXPECT_EQ(lexer.readFloats(out, 8), 1u);
-  EXPECT_EQ(lexer.next().raw, "16777217");
+  ASSERT_EQ(lexer.readFloats(out, 8), 5u);
+  EXPECT_EQ(out[1], 16777216.0f);
+  EXPECT_EQ(out[2], std::nextafter(1.0f, 2.0f));
+  EXPECT_EQ(out[3], 0.0f);
+  EXPECT_EQ(lexer.next().raw, "1e39") << "too large: left to those who can say so";
   EXPECT_EQ(lexer.readFloats(out, 1), 1u);
   const std::string ints = "2147483647 2147483648";
   Lexer other(ints, 0, false);

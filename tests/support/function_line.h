@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "fields/density_line.h"
@@ -19,7 +20,9 @@ struct FunctionLine {
   std::function<double(double)> function;
   std::vector<Interval> intervals;  ///< in order; the first begins at 0
 
+  double length() const { return intervals.empty() ? 0.0 : intervals.back().sExit; }
   float density(double s) const { return static_cast<float>(function(s)); }
+  void densities(std::span<const double> s, std::span<float> out) const { densitiesOneByOne(*this, s, out); }
   template <class Visit>
   void walk(Visit&& visit) const {
     double sEnter = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -10,6 +8,8 @@
 #include <sstream>
 
 #include "image/image.h"
+#include "support/process.h"
+#include "support/temporary_folder.h"
 
 // Runs the built program, as a user would.
 
@@ -19,46 +19,21 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct Result {
-  int status = -1;
-  std::string out;  ///< standard output and error together
-};
+using test::ProcessResult;
 
 class Imgtool : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) / (std::string("pbrtmedia_imgtool_") + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Runs imgtool inside the test's folder.
-  Result run(const std::string& arguments) const {
-    const std::string command =
-        "cd '" + folder_.string() + "' && '" PBRT_MEDIA_IMGTOOL "' " + arguments + " 2>&1";
-    Result result;
-    FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) return result;
-    char buffer[4096];
-    for (std::size_t n; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) result.out.append(buffer, n);
-    const int status = pclose(pipe);
-    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return result;
+  ProcessResult run(const std::string& arguments) const {
+    return test::run("cd '" + folder_.path().string() + "' && '" PBRT_MEDIA_IMGTOOL "' " + arguments);
   }
   void write(const std::string& name, const Image& image) const {
-    writeImage(folder_ / name, image, {.pixelType = PixelType::Float});
+    writeImage(folder_.path() / name, image, {.pixelType = PixelType::Float});
   }
-  Image read(const std::string& name) const { return readImage(folder_ / name); }
-  std::string bytes(const std::string& name) const {
-    std::ifstream in(folder_ / name, std::ios::binary);
-    std::ostringstream out;
-    out << in.rdbuf();
-    return out.str();
-  }
+  Image read(const std::string& name) const { return readImage(folder_.path() / name); }
+  std::string bytes(const std::string& name) const { return folder_.read(name); }
 
-  fs::path folder_;
+  TemporaryFolder folder_;
 };
 
 Image ramp(int width, int height, float offset = 0) {
@@ -68,14 +43,14 @@ Image ramp(int width, int height, float offset = 0) {
   return image;
 }
 
-void expectIn(const Result& result, const std::string& part) {
-  EXPECT_NE(result.out.find(part), std::string::npos) << result.out;
+void expectIn(const ProcessResult& result, const std::string& part) {
+  EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
 }
 
 TEST_F(Imgtool, HelpAndMistakesHaveTheRightStatus) {
   EXPECT_EQ(run("--help").status, 0);
   for (const char* command : {"info", "convert", "diff", "cat", "merge", "assemble"}) {
-    const Result help = run(std::string(command) + " --help");
+    const ProcessResult help = run(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
     expectIn(help, "Usage: imgtool " + std::string(command));
   }
@@ -88,13 +63,13 @@ TEST_F(Imgtool, HelpAndMistakesHaveTheRightStatus) {
 TEST_F(Imgtool, ErrorsNameTheFile) {
   for (const char* command : {"info no.exr", "cat no.exr", "diff no.exr no.exr", "convert no.exr out.png",
                               "merge no.exr -o out.exr", "assemble no.exr -o out.exr"}) {
-    const Result result = run(command);
+    const ProcessResult result = run(command);
     EXPECT_EQ(result.status, 1);
     expectIn(result, "no.exr");
     expectIn(result, "error: ");
   }
   write("a.exr", ramp(2, 2));
-  const Result result = run("convert a.exr out.jpg");
+  const ProcessResult result = run("convert a.exr out.jpg");
   EXPECT_EQ(result.status, 1);
   expectIn(result, "out.jpg");
   expectIn(result, ".exr, .pfm, .png, .tga");
@@ -108,14 +83,14 @@ TEST_F(Imgtool, InfoReportsWhatTheFileHolds) {
   image.at(0, 0, 0) = std::numeric_limits<float>::quiet_NaN();
   image.at(1, 0, 0) = std::numeric_limits<float>::infinity();
   write("a.exr", image);
-  const Result text = run("info a.exr");
+  const ProcessResult text = run("info a.exr");
   EXPECT_EQ(text.status, 0);
   expectIn(text, "4 x 2 pixels");
   expectIn(text, "data window     (2, 3) - (6, 5)");
   expectIn(text, "samples: 16");
-  const Result result = run("info --json a.exr");
+  const ProcessResult result = run("info --json a.exr");
   ASSERT_EQ(result.status, 0);
-  const json info = json::parse(result.out).at(0);
+  const json info = json::parse(result.output).at(0);
   EXPECT_EQ(info["width"], 4);
   EXPECT_EQ(info["displayWindow"], (json{0, 0, 8, 8}));
   EXPECT_EQ(info["metadata"]["samples"], "16");
@@ -140,20 +115,24 @@ TEST_F(Imgtool, ConvertFromPngToPngIsTheIdentity) {
 
 TEST_F(Imgtool, ConvertAppliesItsOptions) {
   write("a.exr", ramp(4, 4));
-  ASSERT_EQ(run("convert --exposure -1 --crop 1 3 0 2 --repeatpix 2 --flipy --float a.exr b.exr").status, 0);
+  ASSERT_EQ(
+      run("convert --exposure -1 --crop 1 3 0 2 --repeatpix 2 --flipy --pixeltype float a.exr b.exr").status,
+      0);
   const Image b = read("b.exr");
   EXPECT_EQ(b.width(), 4);
   EXPECT_EQ(b.rgb(0, 3), 0.5f * ramp(4, 4).rgb(1, 0));
   ASSERT_EQ(run("convert --resize 2x1 --resizefilter lanczos a.exr c.pfm").status, 0);
   EXPECT_EQ(read("c.pfm").width(), 2);
-  EXPECT_EQ(run("convert --float --half a.exr d.exr").status, 1);
+  EXPECT_EQ(run("convert --pixeltype quarter a.exr d.exr").status, 1);
   EXPECT_EQ(run("convert --compression lzw a.exr d.exr").status, 1);
   EXPECT_EQ(run("convert --crop 0 9 0 1 a.exr d.exr").status, 1);
   EXPECT_EQ(run("convert --bloomwidth 4 --bloomlevel 1 a.exr d.exr").status, 1);
   EXPECT_EQ(run("convert --bloomwidth 5 a.exr d.exr").status, 1);
-  EXPECT_FALSE(fs::exists(folder_ / "d.exr"));
-  for (const char* compression : {"none", "zip", "PIZ"}) {
-    ASSERT_EQ(run(std::string("convert --float --compression ") + compression + " a.exr e.exr").status, 0);
+  EXPECT_FALSE(fs::exists(folder_.path() / "d.exr"));
+  for (const char* compression : {"none", "zip", "piz"}) {
+    ASSERT_EQ(
+        run(std::string("convert --pixeltype float --compression ") + compression + " a.exr e.exr").status,
+        0);
     EXPECT_EQ(read("e.exr").data(), read("a.exr").data());
   }
 }
@@ -163,7 +142,7 @@ TEST_F(Imgtool, ConvertWritesHalfUnlessToldOtherwise) {
   image.data() = {1.0f / 3.0f, 0, 0};
   write("a.exr", image);
   ASSERT_EQ(run("convert a.exr half.exr").status, 0);
-  ASSERT_EQ(run("convert --float a.exr float.exr").status, 0);
+  ASSERT_EQ(run("convert --pixeltype float a.exr float.exr").status, 0);
   EXPECT_NE(read("half.exr").data()[0], 1.0f / 3.0f);
   EXPECT_EQ(read("float.exr").data()[0], 1.0f / 3.0f);
 }
@@ -194,15 +173,15 @@ TEST_F(Imgtool, DiffPrintsItsNumbers) {
   Image b = ramp(4, 4);
   b.at(1, 0, 1) += 0.5f;
   write("b.exr", b);
-  const Result text = run("diff a.exr b.exr --flip");
+  const ProcessResult text = run("diff a.exr b.exr --flip");
   EXPECT_EQ(text.status, 1);
   expectIn(text, "(a - b)^2 / (b^2 + 0.01)");
   expectIn(text, "max 0.5 at (1 0)");
   expectIn(text, "FLIP");
   expectIn(text, "1 pixels differ");
-  const Result result = run("diff --json --flip a.exr b.exr");
+  const ProcessResult result = run("diff --json --flip a.exr b.exr");
   EXPECT_EQ(result.status, 1);
-  const json report = json::parse(result.out);
+  const json report = json::parse(result.output);
   EXPECT_EQ(report["agree"], false);
   EXPECT_EQ(report["maxAt"], (json{1, 0}));
   EXPECT_EQ(report["maxChannel"], "G");
@@ -215,7 +194,7 @@ TEST_F(Imgtool, DiffWritesItsImageOnlyWhenTheImagesDiffer) {
   write("a.exr", ramp(2, 2));
   write("b.exr", ramp(2, 2, 0.5f));
   EXPECT_EQ(run("diff a.exr a.exr --outfile d.exr").status, 0);
-  EXPECT_FALSE(fs::exists(folder_ / "d.exr"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "d.exr"));
   EXPECT_EQ(run("diff a.exr b.exr --outfile d.exr").status, 1);
   EXPECT_EQ(read("d.exr").rgb(1, 1), Rgb(0.5f));
   EXPECT_EQ(run("diff a.exr b.exr --outfile d.jpg").status, 1);
@@ -234,11 +213,11 @@ TEST_F(Imgtool, DiffNeverPassesWhatCannotBeCompared) {
   moved.displayWindow = {{0, 0}, {9, 9}};
   write("moved.exr", moved);
   for (const char* other : {"large.exr", "grey.exr", "nan.exr", "moved.exr"}) {
-    const Result result = run("diff a.exr " + std::string(other) + generous);
+    const ProcessResult result = run("diff a.exr " + std::string(other) + generous);
     EXPECT_EQ(result.status, 1) << other;
     expectIn(result, "cannot be compared");
-    const Result asJson = run("diff --json a.exr " + std::string(other) + generous);
-    EXPECT_EQ(json::parse(asJson.out)["agree"], false);
+    const ProcessResult asJson = run("diff --json a.exr " + std::string(other) + generous);
+    EXPECT_EQ(json::parse(asJson.output)["agree"], false);
   }
   EXPECT_EQ(run("diff nan.exr nan.exr" + generous).status, 1);
 }
@@ -250,10 +229,10 @@ TEST_F(Imgtool, CatPrintsEveryPixelAndSorts) {
   image.dataWindow = {{3, 4}, {5, 5}};
   image.displayWindow = {{0, 0}, {9, 9}};
   write("a.exr", image);
-  EXPECT_EQ(run("cat a.exr").out, "# x, y: R G B\n(3, 4): 0.5 0.1 2\n(4, 4): 0.25 0.25 0.25\n");
+  EXPECT_EQ(run("cat a.exr").output, "# x, y: R G B\n(3, 4): 0.5 0.1 2\n(4, 4): 0.25 0.25 0.25\n");
   image.setRgb(0, 0, Rgb(1));
   write("a.exr", image);
-  EXPECT_EQ(run("cat --sort a.exr").out, "# x, y: R G B\n(4, 4): 0.25 0.25 0.25\n(3, 4): 1 1 1\n");
+  EXPECT_EQ(run("cat --sort a.exr").output, "# x, y: R G B\n(4, 4): 0.25 0.25 0.25\n(3, 4): 1 1 1\n");
 }
 
 TEST_F(Imgtool, MergeAveragesAndRefusesEqualSeeds) {
@@ -262,15 +241,15 @@ TEST_F(Imgtool, MergeAveragesAndRefusesEqualSeeds) {
   b.metadata = {{"samples", "30"}, {"seed", "2"}, {"sceneHash", "s"}};
   write("a.exr", a);
   write("b.exr", b);
-  const Result result = run("merge a.exr b.exr -o m.exr");
-  ASSERT_EQ(result.status, 0) << result.out;
+  const ProcessResult result = run("merge a.exr b.exr -o m.exr");
+  ASSERT_EQ(result.status, 0) << result.output;
   const Image merged = read("m.exr");
   EXPECT_EQ(merged.data(), ramp(3, 2, 0.75f).data());
   EXPECT_EQ(merged.metadata.at("samples"), "40");
-  const Result twice = run("merge a.exr m.exr -o n.exr");
+  const ProcessResult twice = run("merge a.exr m.exr -o n.exr");
   EXPECT_EQ(twice.status, 1);
   expectIn(twice, "both used seed 1");
-  EXPECT_FALSE(fs::exists(folder_ / "n.exr"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "n.exr"));
   ASSERT_EQ(run("convert --scale 2 a.exr scaled.exr").status, 0);
   EXPECT_EQ(run("merge scaled.exr b.exr -o n.exr").status, 1);
 }
@@ -278,16 +257,16 @@ TEST_F(Imgtool, MergeAveragesAndRefusesEqualSeeds) {
 TEST_F(Imgtool, AssembleUndoesCropping) {
   Image picture = ramp(6, 4);
   write("a.exr", picture);
-  ASSERT_EQ(run("convert --float --crop 0 3 0 4 a.exr left.exr").status, 0);
-  ASSERT_EQ(run("convert --float --crop 3 6 0 4 a.exr right.exr").status, 0);
-  ASSERT_EQ(run("convert --float --crop 2 4 1 2 a.exr middle.exr").status, 0);
-  ASSERT_EQ(run("assemble --float left.exr right.exr --outfile whole.exr").status, 0);
+  ASSERT_EQ(run("convert --pixeltype float --crop 0 3 0 4 a.exr left.exr").status, 0);
+  ASSERT_EQ(run("convert --pixeltype float --crop 3 6 0 4 a.exr right.exr").status, 0);
+  ASSERT_EQ(run("convert --pixeltype float --crop 2 4 1 2 a.exr middle.exr").status, 0);
+  ASSERT_EQ(run("assemble --pixeltype float left.exr right.exr --outfile whole.exr").status, 0);
   EXPECT_EQ(run("diff whole.exr a.exr").status, 0);
-  const Result gaps = run("assemble --float left.exr middle.exr --outfile part.exr");
+  const ProcessResult gaps = run("assemble --pixeltype float left.exr middle.exr --outfile part.exr");
   EXPECT_EQ(gaps.status, 1);
   expectIn(gaps, "overlaps: 1 pixels, 0 of them with different values");
   expectIn(gaps, "gaps: 11 pixels of no tile, the first at (3 0)");
-  EXPECT_FALSE(fs::exists(folder_ / "part.exr"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "part.exr"));
   EXPECT_EQ(run("assemble --allow-gaps left.exr middle.exr --outfile part.exr").status, 0);
   EXPECT_EQ(read("part.exr").rgb(5, 3), Rgb(0));
 }
@@ -295,8 +274,8 @@ TEST_F(Imgtool, AssembleUndoesCropping) {
 TEST_F(Imgtool, SurvivesBrokenFiles) {
   write("a.exr", ramp(8, 8));
   const std::string whole = bytes("a.exr");
-  std::ofstream(folder_ / "cut.exr", std::ios::binary) << whole.substr(0, whole.size() / 2);
-  const Result result = run("info cut.exr");
+  std::ofstream(folder_.path() / "cut.exr", std::ios::binary) << whole.substr(0, whole.size() / 2);
+  const ProcessResult result = run("info cut.exr");
   EXPECT_EQ(result.status, 1);
   expectIn(result, "cut.exr: error: OpenEXR: ");
 }

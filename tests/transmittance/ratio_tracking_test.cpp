@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/function_line.h"
+#include "support/run_estimator.h"
 #include "support/statistics.h"
 
 namespace pbrtmedia {
@@ -16,6 +17,7 @@ namespace {
 
 using test::FunctionLine;
 using test::kMaxAbsZ;
+using test::runEstimator;
 using test::RunningStats;
 using test::simpson;
 using test::zTest;
@@ -69,7 +71,8 @@ TEST(RatioTracking, HasTheMeanAndTheSecondMomentOfTheory) {
       Rng rng(kSeed);
       RunningStats mean, square;
       for (int n = 0; n < 200000; ++n) {
-        const double t = RatioTracking{.rouletteThreshold = 0}(c.line, Channels<1>{sigma}, rng).value[0];
+        const double t =
+            runEstimator(RatioTracking{.rouletteThreshold = 0}, c.line, Channels<1>{sigma}, rng).value[0];
         mean.add(t);
         square.add(t * t);
       }
@@ -86,7 +89,9 @@ TEST(RatioTracking, StaysUnbiasedWithRoulette) {
     for (const double threshold : {.1, .5, 1.}) {
       const double sigma = 3, tau = sigma * integrate(c.line, [](double mu, double) { return mu; });
       const auto test = test::runZTest(
-          [&](Rng& rng) { return RatioTracking{threshold}(c.line, Channels<1>{sigma}, rng).value[0]; },
+          [&](Rng& rng) {
+            return runEstimator(RatioTracking{threshold}, c.line, Channels<1>{sigma}, rng).value[0];
+          },
           std::exp(-tau), kSeed, 200000);
       EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << c.name << ", threshold " << threshold << ": " << test;
     }
@@ -96,9 +101,9 @@ TEST(RatioTracking, StaysUnbiasedWithRoulette) {
 TEST(RatioTracking, AForgottenBoundIsNoticedByTheTest) {
   // Negative control: exp(-bound) in place of exp(-density) is rejected.
   const Case c = cases()[1];
-  const auto test =
-      test::runZTest([&](Rng& rng) { return RatioTracking()(c.line, Channels<1>{1}, rng).value[0]; },
-                     std::exp(-2.0), kSeed, 200000);
+  const auto test = test::runZTest(
+      [&](Rng& rng) { return runEstimator(RatioTracking(), c.line, Channels<1>{1}, rng).value[0]; },
+      std::exp(-2.0), kSeed, 200000);
   EXPECT_GT(std::abs(test.z()), kMaxAbsZ) << test;
 }
 
@@ -109,7 +114,7 @@ TEST(RatioTracking, IsABernoulliTrialUnderATightBoundOverTheWholeLadder) {
     Rng rng(kSeed);
     double lost = 0;
     for (double i = 0; i < n; ++i) {
-      const auto estimate = RatioTracking()(line, Channels<1>{tau}, rng);
+      const auto estimate = runEstimator(RatioTracking(), line, Channels<1>{tau}, rng);
       ASSERT_TRUE(estimate.value[0] == 0 || estimate.value[0] == 1);
       ASSERT_EQ(estimate.tally.lookups, estimate.value[0] == 0 ? 1u : 0u);
       lost += 1 - estimate.value[0];
@@ -123,9 +128,9 @@ TEST(RatioTracking, ReturnsExactlyOneInVacuumWithoutALookup) {
   FunctionLine vacuum{[](double) { return 0.0; }, {{1, {0, 0}}}};
   Rng rng(1);
   // Only the probe of the unproven zero.
-  EXPECT_EQ(RatioTracking()(vacuum, Channels<1>{5}, rng).value[0], 1.0);
-  EXPECT_EQ(RatioTracking()(vacuum, Channels<1>{5}, rng).tally.lookups, 1u);
-  const auto clear = RatioTracking()(cases()[1].line, Channels<3>{0, 0, 0}, rng);
+  EXPECT_EQ(runEstimator(RatioTracking(), vacuum, Channels<1>{5}, rng).value[0], 1.0);
+  EXPECT_EQ(runEstimator(RatioTracking(), vacuum, Channels<1>{5}, rng).tally.lookups, 1u);
+  const auto clear = runEstimator(RatioTracking(), cases()[1].line, Channels<3>{0, 0, 0}, rng);
   EXPECT_EQ(clear.value, filled<3>(1));
   EXPECT_EQ(clear.tally.lookups, 0u);
 }
@@ -134,7 +139,7 @@ TEST(RatioTracking, SpendsTheOpticalDepthOfItsBound) {
   const FunctionLine line{[](double) { return .5; }, {{.5, {2, 0}}, {1, {6, 0}}}};
   const auto test = test::runZTest(
       [&](Rng& rng) {
-        return RatioTracking{.rouletteThreshold = 0}(line, Channels<1>{1}, rng).tally.lookups;
+        return runEstimator(RatioTracking{.rouletteThreshold = 0}, line, Channels<1>{1}, rng).tally.lookups;
       },
       4.0, kSeed, 100000);
   EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
@@ -146,7 +151,7 @@ TEST(RatioTracking, CountsViolatedBoundsAndStaysFinite) {
   RunningStats values;
   RenderCounters counters;
   for (int n = 0; n < 200000; ++n) {
-    const auto estimate = RatioTracking()(line, Channels<1>{.5}, rng);
+    const auto estimate = runEstimator(RatioTracking(), line, Channels<1>{.5}, rng);
     ASSERT_TRUE(std::isfinite(estimate.value[0]));
     values.add(estimate.value[0]);
     estimate.tally.addTo(counters);
@@ -161,7 +166,7 @@ TEST(RatioTracking, CountsViolatedBoundsAndStaysFinite) {
 TEST(RatioTracking, CountsDensityUnderABoundOfZeroAndEnds) {
   const FunctionLine line{[](double) { return 3.0; }, {{.5, {0, 0}}, {1, {0, 0}}}};
   Rng rng(1);
-  const auto estimate = RatioTracking()(line, Channels<1>{1}, rng);
+  const auto estimate = runEstimator(RatioTracking(), line, Channels<1>{1}, rng);
   EXPECT_TRUE(std::isfinite(estimate.value[0]));
   EXPECT_EQ(estimate.tally.violations, 2u);
   EXPECT_EQ(estimate.tally.worstRatio, std::numeric_limits<double>::infinity());
@@ -175,7 +180,7 @@ TEST(RatioTracking, IsExactPerChannelInAChromaticMedium) {
     Rng rng(kSeed);
     RunningStats values[3];
     for (int n = 0; n < 100000; ++n) {
-      const auto estimate = RatioTracking()(c.line, sigma, rng);
+      const auto estimate = runEstimator(RatioTracking(), c.line, sigma, rng);
       for (std::size_t i = 0; i < 3; ++i) values[i].add(estimate.value[i]);
     }
     for (std::size_t i = 0; i < 3; ++i) {

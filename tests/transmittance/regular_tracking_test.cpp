@@ -10,9 +10,12 @@
 #include "fields/grid_field.h"
 #include "support/function_line.h"
 #include "support/grids.h"
+#include "support/run_estimator.h"
 
 namespace pbrtmedia {
 namespace {
+
+using test::runEstimator;
 
 using test::constantGrid;
 using test::gridOf;
@@ -37,7 +40,7 @@ TEST(RegularTracking, FollowsBeerLambertOverTheWholeLadder) {
     const SuperVoxels bounds = field.superVoxels();
     const auto line = FieldLine<Field>::clip(field, bounds, kCentralAxis);
     Rng rng;
-    const double t = RegularTracking()(*line, Channels<1>{tau}, rng).value[0];
+    const double t = runEstimator(RegularTracking(), *line, Channels<1>{tau}, rng).value[0];
     EXPECT_NEAR(-std::log(t), tau, 1e-12 * tau + 1e-15) << tau;
     // 1 - T keeps its digits where T is near 1.
     EXPECT_NEAR(1 - t, -std::expm1(-tau), 1e-10 * tau + 1e-15) << tau;
@@ -55,12 +58,12 @@ TEST(RegularTracking, IsExactlyZeroWhereNoDoubleIsLeft) {
   const auto line = FieldLine<GridField>::clip(many, bounds, kCentralAxis);
   Rng rng;
   for (const double tau : {1e3, 1e6, 1e30}) {
-    const auto estimate = RegularTracking()(*line, Channels<1>{tau}, rng);
+    const auto estimate = runEstimator(RegularTracking(), *line, Channels<1>{tau}, rng);
     EXPECT_EQ(estimate.value[0], 0.0);
     EXPECT_LE(estimate.tally.lookups, 2u * 65u);
   }
   // A clear channel keeps the walk going.
-  const auto estimate = RegularTracking()(*line, Channels<3>{0, 1, 1e6}, rng);
+  const auto estimate = runEstimator(RegularTracking(), *line, Channels<3>{0, 1, 1e6}, rng);
   EXPECT_EQ(estimate.value[0], 1.0);
   EXPECT_NEAR(estimate.value[1], std::exp(-1.0), 1e-12);
   EXPECT_EQ(estimate.value[2], 0.0);

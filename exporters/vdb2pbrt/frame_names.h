@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pbrtmedia {
+
+/// Frames to convert: first, first + step, … up to last.
+struct FrameRange {
+  int first = 0, last = 0, step = 1;
+};
+
+/// "12", "1-24" or "1-24:2"; numbers >= 0, first <= last, step >= 1. Nothing for any other text.
+std::optional<FrameRange> parseFrameRange(const std::string& text);
+
+/// Whether the name holds a place for a frame number: %d, %4d or %04d.
+bool hasFramePlace(const std::string& name);
+/// The name with every such place filled in. "%%" is a percent sign; without a place the name stays.
+std::string frameName(const std::string& name, int frame);
+
+}  // namespace pbrtmedia

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "fields/canonical_function.h"
+#include "fields/density_line.h"
+
+namespace pbrtmedia {
+
+/// A canonical function laid along a segment, with bounds of our choice, true or not: what the lab, the
+/// benchmarks and tests give to estimators. One type for every function, so that estimators are compiled
+/// once.
+///
+/// The function sits at [offset, offset + length] of its axis and density(s) looks at the point offset + s in
+/// double, so a large offset costs digits as it would in a scene. The function must outlive the line.
+/// Thread-safe once made, unless it records.
+class CanonicalLine {
+ public:
+  /// Bounds may be untrue, so estimators probe empty stretches; with true bounds that costs a look-up there.
+  static constexpr bool kProvenBounds = false;
+
+  static constexpr unsigned kNone = static_cast<unsigned>(-1);
+  struct Setup {
+    double length = 1;         ///< >= 0
+    double offset = 0;         ///< of the segment's start
+    double scale = 1;          ///< density = scale * function; > 0
+    double control = 1;        ///< upper bound / largest density of the interval; > 0, below 1: not a bound
+    double lower = 0;          ///< lower bound / smallest density of the interval; 0: none
+    unsigned superVoxels = 1;  ///< intervals of equal length with their own bounds, >= 1
+    bool hasMeans = true;      ///< intervals know their mean density
+    double leastUpper = 0;     ///< upper bounds are raised to this density
+    unsigned blind = kNone;    ///< the interval whose upper bound says 0, whatever lies there
+  };
+  struct Interval {
+    double sEnter, sExit;
+    SuperVoxel bound;
+  };
+
+  CanonicalLine(const CanonicalFunction& function, const Setup& setup);
+
+  double length() const { return setup_.length; }
+  float density(double s) const {
+    if (record_ != nullptr) [[unlikely]] {
+      record_->push_back(s);
+    }
+    return static_cast<float>(setup_.scale * (*function_)(((setup_.offset + s) - setup_.offset) * toX_));
+  }
+  void densities(std::span<const double> s, std::span<float> out) const { densitiesOneByOne(*this, s, out); }
+  template <class Visit>
+  void walk(Visit&& visit) const {
+    for (const Interval& i : intervals_) {
+      if (!visit(i.sEnter, i.sExit, i.bound)) return;
+    }
+  }
+  /// Call only if isPiecewiseCubic().
+  template <class Visit>
+  void walkPieces(Visit&& visit) const {
+    const std::span<const double> x = function_->knots();
+    for (std::size_t i = 1; i < x.size(); ++i) {
+      const double enter = x[i - 1] / toX_, exit = i + 1 < x.size() ? x[i] / toX_ : length();
+      if (enter < exit && !visit(enter, exit)) return;
+    }
+  }
+  bool isPiecewiseCubic() const { return function_->isPiecewisePolynomial(); }
+
+  const CanonicalFunction& function() const { return *function_; }
+  const Setup& setup() const { return setup_; }
+  std::span<const Interval> intervals() const { return intervals_; }
+  /// Exact integral of the density over the segment.
+  double integral() const { return setup_.scale * function_->integral() / function_->width() * length(); }
+  /// Integrals of the bounds over the segment.
+  double upperIntegral() const;
+  double lowerIntegral() const;
+  /// Appends the s of every later look-up to `points`; null: no longer.
+  void record(std::vector<double>* points) { record_ = points; }
+
+ private:
+  const CanonicalFunction* function_;
+  Setup setup_;
+  double toX_;  ///< x = s * toX_
+  std::vector<Interval> intervals_;
+  std::vector<double>* record_ = nullptr;
+};
+
+static_assert(PiecewiseCubicLine<CanonicalLine>);
+
+}  // namespace pbrtmedia

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "fields/learned_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pbrtmedia {
+namespace {
+
+constexpr float kUnseen = std::numeric_limits<float>::infinity();
+
+}  // namespace
+
+LearnedBounds::LearnedBounds(const SuperVoxels& cells, const Params& params)
+    : params_(params),
+      inForce_(cells.shape(), cells.cellSize(), cells.box(),
+               [&](std::int64_t, std::int64_t, std::int64_t) {
+                 return SuperVoxel{params.initial, 0, SuperVoxel::kUnknownMean};
+               }),
+      most_(std::make_unique<std::atomic<float>[]>(inForce_.storedCells())),
+      least_(std::make_unique<std::atomic<float>[]>(inForce_.storedCells())) {
+  for (std::size_t i = 0; i < inForce_.storedCells(); ++i) {
+    most_[i].store(params.initial, std::memory_order_relaxed);
+    least_[i].store(kUnseen, std::memory_order_relaxed);
+  }
+  progress_.cells = inForce_.cellCount();
+  progress_.maximum = params.initial;
+}
+
+void LearnedBounds::publish() {
+  progress_.raised = progress_.visited = 0;
+  inForce_.update([&](std::size_t cell, const SuperVoxel& old) {
+    const float upper = most_[cell].load(std::memory_order_relaxed);
+    const float least = least_[cell].load(std::memory_order_relaxed);
+    progress_.raised += upper > old.upper;
+    progress_.visited += least < kUnseen;
+    const float lower = least < kUnseen ? std::max(0.0f, least - params_.epsilon) : 0.0f;
+    return SuperVoxel{std::max(upper, old.upper), lower, SuperVoxel::kUnknownMean};
+  });
+  progress_.maximum = inForce_.maximum();
+  ++progress_.passes;
+}
+
+std::vector<float> LearnedBounds::save() const {
+  std::vector<float> numbers;
+  const auto& n = inForce_.shape().count;
+  for (std::int64_t k = 0; k < n.z; ++k) {
+    for (std::int64_t j = 0; j < n.y; ++j) {
+      for (std::int64_t i = 0; i < n.x; ++i) {
+        const SuperVoxel cell = inForce_.at(i, j, k);
+        numbers.push_back(cell.upper);
+        numbers.push_back(cell.lower);
+      }
+    }
+  }
+  return numbers;
+}
+
+bool LearnedBounds::restore(const std::vector<float>& saved) {
+  if (saved.size() != 2 * inForce_.cellCount()) return false;
+  for (std::size_t i = 0; i < saved.size(); i += 2) {
+    const float upper = saved[i], lower = saved[i + 1];
+    if (!(upper > 0 && std::isfinite(upper) && lower >= 0 && lower <= upper)) return false;
+  }
+  std::size_t next = 0;
+  inForce_.update([&](std::size_t cell, const SuperVoxel&) {
+    const float upper = saved[next], lower = saved[next + 1];
+    next += 2;
+    most_[cell].store(upper, std::memory_order_relaxed);
+    if (lower > 0) least_[cell].store(lower + params_.epsilon, std::memory_order_relaxed);
+    return SuperVoxel{upper, lower, SuperVoxel::kUnknownMean};
+  });
+  progress_.maximum = inForce_.maximum();
+  return true;
+}
+
+}  // namespace pbrtmedia

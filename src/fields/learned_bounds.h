@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fields/lattice_walk.h"
+#include "fields/super_voxels.h"
+
+namespace pbrtmedia {
+
+/// How far learning is; counts of cells.
+struct LearningProgress {
+  std::uint64_t passes = 0;  ///< published so far
+  std::size_t cells = 0;
+  std::size_t raised = 0;   ///< by the last publication
+  std::size_t visited = 0;  ///< ever looked up in
+  float maximum = 0;        ///< largest bound
+};
+
+/// Super-voxel bounds that are learned while rendering: progressive null-tracking, Misso et al. 2023, section
+/// 4. Every density looked up is cut to its cell's present bound, and proposes max(bound, density + epsilon)
+/// for the next pass. Bounds in force change only in `publish`, between passes, and a maximum does not depend
+/// on the order of its arguments: so what a pass computes is the same for any number of threads.
+///
+/// Each pass is unbiased for the density cut to the bounds in force; the average over passes is consistent,
+/// as every visited cell ends up bounding. Lower bounds are learned as the least density seen minus epsilon;
+/// they are controls only and cut nothing.
+///
+/// With a slack s > 0 densities up to (1 + s) times the bound pass uncut: trackers whose weights allow a
+/// bound slightly too low stay unbiased there, and the bounds themselves stay lower by the same factor.
+class LearnedBounds {
+ public:
+  struct Params {
+    float initial = 0.01f;  ///< bound of every cell before the first pass, > 0
+    float epsilon = 0.01f;  ///< added to a density that is proposed as a bound, > 0
+    float slack = 0;        ///< >= 0
+  };
+
+  /// `cells` gives the lattice, in local units of the field; its own bounds are not used.
+  LearnedBounds(const SuperVoxels& cells, const Params& params);
+
+  /// The bounds in force.
+  const SuperVoxels& inForce() const { return inForce_; }
+  /// The density that trackers see at a local point: cut to the bound. Notes what was found. Thread-safe.
+  float bounded(Vec3d local, float density) const {
+    const std::size_t cell = inForce_.cellAt(local);
+    const float bound = inForce_.upperOf(cell);
+    propose(cell, density);
+    const float limit = bound * (1 + params_.slack);
+    return density < limit ? density : limit;
+  }
+  /// Puts what was proposed into force. Not thread-safe.
+  void publish();
+  LearningProgress progress() const { return progress_; }
+
+  /// The bounds in force as numbers, cell by cell, x fastest: upper then lower; for a cache.
+  std::vector<float> save() const;
+  /// Starts from such numbers instead. False, changing nothing, when their count or a value does not fit.
+  bool restore(const std::vector<float>& saved);
+
+ private:
+  void propose(std::size_t cell, float density) const {
+    const float wanted = (density + params_.epsilon) / (1 + params_.slack);
+    std::atomic<float>& most = most_[cell];
+    for (float seen = most.load(std::memory_order_relaxed);
+         wanted > seen && !most.compare_exchange_weak(seen, wanted, std::memory_order_relaxed);) {
+    }
+    std::atomic<float>& least = least_[cell];
+    for (float seen = least.load(std::memory_order_relaxed);
+         density < seen && !least.compare_exchange_weak(seen, density, std::memory_order_relaxed);) {
+    }
+  }
+
+  Params params_;
+  SuperVoxels inForce_;
+  std::unique_ptr<std::atomic<float>[]> most_, least_;  ///< proposals, one per stored cell
+  LearningProgress progress_;
+};
+
+}  // namespace pbrtmedia

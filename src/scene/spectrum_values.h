@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "base/diagnostics.h"
+#include "scene/input_folders.h"
+#include "scene/param_type.h"
+#include "spectrum/rgb.h"
+
+namespace pbrtmedia {
+
+/// Turns what a spectral parameter says into RGB: numbers, or names of files, each of which is read once.
+/// Both functions leave the colours in `param`; false: a problem was reported, beginning with `what`.
+class SpectrumValues {
+ public:
+  /// `readFiles`: false makes every file black, unread.
+  SpectrumValues(Diagnostics& diagnostics, bool readFiles)
+      : diagnostics_(diagnostics), readFiles_(readFiles) {}
+
+  bool fromNumbers(Param& param, const ParamType& type, std::span<const float> numbers,
+                   const std::string& what);
+  /// The names are the strings that `param` holds.
+  bool fromFiles(Param& param, const InputFolders& folders, const std::string& what);
+
+ private:
+  Diagnostics& diagnostics_;
+  bool readFiles_;
+  std::map<std::filesystem::path, std::optional<Rgb>> spectra_;  ///< files read before; nothing: unusable
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tools/medialab_problems.h"
+#include "tools/medialab_selection.h"
+#include "tools/medialab_session.h"
+
+namespace pbrtmedia {
+
+struct EstimateOptions {
+  LabOptions lab;
+  EstimatorSelection selection;
+  std::vector<std::string> functions{"all"};
+  ProblemOptions problem;
+  TrialPlan plan;
+  bool showLaw = false, showPattern = false, showLower = false;  ///< columns of what was chosen
+  std::uint64_t trials = 10000;
+};
+
+/// Trials of every estimator on every problem: a row each with mean, variance, cost and their product, which
+/// is the inverse of efficiency. Columns speak of one trial, the mean of `plan.samples` estimates.
+LabTable estimateTable(const EstimateOptions& options, const StopSignal& stop);
+
+/// `medialab estimate`.
+int runEstimate(const EstimateOptions& options);
+
+}  // namespace pbrtmedia

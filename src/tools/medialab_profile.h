@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <string>
+
+#include "tools/medialab_problems.h"
+#include "tools/medialab_selection.h"
+#include "tools/medialab_session.h"
+
+namespace pbrtmedia {
+
+struct ProfileOptions {
+  LabOptions lab;
+  EstimatorSelection selection;  ///< one estimator or more
+  std::string function = "cosine";
+  ProblemOptions problem;  ///< the first of each list counts
+  unsigned points = 256;   ///< where the field is shown
+  std::string picture;     ///< image file to plot into; empty: none
+};
+
+/// One line: the extinction and its controls along it (kind "field"), and where one estimate of each
+/// estimator looked, in the order of its look-ups (kind: the estimator). Extinctions in 1 / length.
+LabTable profileTable(const ProfileOptions& options);
+
+/// `medialab profile`.
+int runProfile(const ProfileOptions& options);
+
+}  // namespace pbrtmedia

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "tools/medialab_session.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "base/files.h"
+
+namespace pbrtmedia {
+namespace {
+
+constexpr double kLiveInterval = 0.1, kPlainInterval = 5;  // seconds
+
+/// As a shell reads it back.
+std::string shellWord(std::string_view word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=,.:/+%@";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) return std::string(word);
+  std::string quoted = "'";
+  for (const char c : word) {
+    if (c == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += c;
+    }
+  }
+  quoted += '\'';
+  return quoted;
+}
+
+std::string fileName(std::string_view path) { return std::filesystem::path(path).filename().string(); }
+
+}  // namespace
+
+std::string commandText(int argc, const char* const* argv) {
+  constexpr std::array<std::string_view, 3> kFiles{"-o", "--outfile", "--picture"};
+  std::string text = "medialab";
+  for (int i = 1; i < argc; ++i) {
+    std::string_view word = argv[i];
+    if (word == "--quiet" || word.substr(0, 10) == "--threads=") continue;
+    if (word == "--threads") {
+      ++i;
+      continue;
+    }
+    text += ' ';
+    const std::size_t equals = word.find('=');
+    const std::string_view option = word.substr(0, equals);
+    if (std::find(kFiles.begin(), kFiles.end(), option) == kFiles.end()) {
+      text += shellWord(word);
+    } else if (equals != std::string_view::npos) {
+      text += shellWord(std::string(option) + '=' + fileName(word.substr(equals + 1)));
+    } else {
+      text += option;
+      if (i + 1 < argc) {
+        text += ' ';
+        text += shellWord(fileName(argv[++i]));
+      }
+    }
+  }
+  return text;
+}
+
+LabProgress::LabProgress(std::string title, std::size_t total, bool quiet)
+    : title_(std::move(title)),
+      total_(total),
+      isSilent_(quiet),
+      isTerminal_(::isatty(STDERR_FILENO) == 1),
+      last_(watch_.seconds()) {}
+
+LabProgress::~LabProgress() {
+  if (shown_ && isTerminal_) std::cerr << '\r' << std::string(78, ' ') << '\r' << std::flush;
+}
+
+void LabProgress::update(std::size_t done, const std::string& what) {
+  if (isSilent_) return;
+  const double now = watch_.seconds();
+  if (now - last_ < (isTerminal_ ? kLiveInterval : kPlainInterval)) return;
+  last_ = now;
+  std::string line = title_ + ": " + std::to_string(done) + " of " + std::to_string(total_);
+  if (!what.empty()) line += ", " + what;
+  line += ", " + std::to_string(static_cast<long>(now)) + " s";
+  if (isTerminal_) {
+    line.resize(78, ' ');
+    std::cerr << '\r' << line << std::flush;
+  } else {
+    std::cerr << line << std::endl;
+  }
+  shown_ = true;
+}
+
+void writeOutput(const std::string& outfile, const std::function<void(std::ostream&)>& write) {
+  if (outfile.empty()) {
+    write(std::cout);
+    return;
+  }
+  writeFileAtomically(outfile, [&](const std::filesystem::path& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    write(out);
+    out.flush();
+    if (!out) throw std::runtime_error("cannot write " + outfile);
+  });
+}
+
+void writeTable(const LabTable& table, const LabOptions& options) {
+  writeOutput(options.outfile, [&](std::ostream& out) { table.write(out, options.format); });
+}
+
+}  // namespace pbrtmedia

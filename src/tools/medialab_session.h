@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+#include "base/stop_signal.h"
+#include "base/stopwatch.h"
+#include "tools/medialab_table.h"
+
+namespace pbrtmedia {
+
+/// What the commands of the lab share.
+struct LabOptions {
+  std::string command;  ///< reproduces the output: see commandText
+  std::string outfile;  ///< empty: standard output
+  TableFormat format = TableFormat::Csv;
+  std::uint64_t seed = 1;
+  unsigned threads = 0;      ///< 0: one per processor
+  bool quiet = false;        ///< no progress
+  bool omitSeconds = false;  ///< leave out what differs from run to run
+};
+
+/// The command line as it would be typed in the folder of the output, without what cannot change results:
+/// folders of output files, --threads and --quiet.
+std::string commandText(int argc, const char* const* argv);
+
+/// Progress on standard error: redrawn in place on a terminal, else a line every five seconds. Not
+/// thread-safe.
+class LabProgress {
+ public:
+  LabProgress(std::string title, std::size_t total, bool quiet);
+  ~LabProgress();
+  LabProgress(const LabProgress&) = delete;
+  LabProgress& operator=(const LabProgress&) = delete;
+  void update(std::size_t done, const std::string& what);
+
+ private:
+  std::string title_;
+  std::size_t total_;
+  bool isSilent_, isTerminal_, shown_ = false;
+  Stopwatch watch_;
+  double last_ = 0;
+};
+
+/// Writes a file atomically, or standard output if the name is empty.
+void writeOutput(const std::string& outfile, const std::function<void(std::ostream&)>& write);
+void writeTable(const LabTable& table, const LabOptions& options);
+
+}  // namespace pbrtmedia

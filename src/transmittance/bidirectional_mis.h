@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory_resource>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "transmittance/channel_products.h"
+#include "transmittance/lookup_limit.h"
+#include "transmittance/parameters.h"
+#include "transmittance/upper_control.h"
+
+namespace pbrtmedia {
+
+/// Bidirectional multiple importance sampling: one walk from a and one from b, every sorted concatenation of
+/// their beginnings, and ratio tracking from a, joined by the balance heuristic. A set of k points with gaps
+/// g_0..g_k between neighbours (a and b included, in optical depth of the majorant) has density e^{g_t} times
+/// that of ratio tracking when its first t points come from a and the others from b, so whoever made it, it
+/// scores
+///   R / (1 + sum_t e^{g_t}),  R = prod mu_n / majorant.
+/// Georgiev et al. 2019, section 5.4; here with piecewise constant majorants, one weight per channel, and the
+/// walks taking their steps in turn, so that dimensions of a pattern keep their meaning.
+///
+/// Bias: none, wherever the bounds are positive. Range: >= 0 while bounds hold, and may exceed 1. Variance:
+/// finite for any positive bounds. Cost: 2 tau_bar look-ups on average, less where the weights reach exactly
+/// 0. Arithmetic: the pairs (beginning from a, beginning from b) that can change the sum's last digit, each
+/// in constant time: all of them in the worst case, some 60 for each point in thin media under loose bounds.
+/// Memory: a record per look-up.
+struct BidirectionalMis {
+  static constexpr std::string_view kName = "bidirectional-mis";
+
+  std::uint64_t maxLookups = 0;  ///< see LookupLimit
+
+  static constexpr auto parameters() {
+    return std::tuple{Parameter{"maxlookups", &BidirectionalMis::maxLookups, LookupLimit::kSeriesHelp, 0}};
+  }
+  EstimatorTraits traits() const {
+    return {.summary =
+                "every join of a walk from the start and a walk from the end, weighted by how likely each is",
+            .source = "Georgiev et al. 2019, section 5.4",
+            .useWhen = "bounds are tight and variance counts more than time",
+            .bias = LookupLimit::bias(maxLookups),
+            .biasNote = LookupLimit::biasNote(maxLookups),
+            .mayLeaveUnitInterval = true,
+            .control = EstimatorTraits::Control::Any,
+            .boundedCost = maxLookups > 0};
+  }
+
+  template <DensityLine Line, std::size_t N>
+  Estimate<N> operator()(const Line& line, const Channels<N>& sigmaT, SampleStream& stream) const {
+    Estimate<N> estimate;
+    UpperControl<Line, N> control(line, sigmaT, stream, estimate.tally);
+    const double depth = control.depth();
+    if (!(depth > 0)) return estimate;
+    const LookupLimit limit(maxLookups);
+    alignas(Prefix<N>) std::array<std::byte, 64 * sizeof(Prefix<N>)> buffer;
+    std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
+    Walk<N> fromA(&memory), fromB(&memory);
+    while (!fromA.ended || !fromB.ended) {
+      if (!fromA.ended) {
+        fromA.step(stream.exponential(), depth, limit, estimate.tally,
+                   [&](double x) { return control.nullRatio(x); });
+      }
+      if (!fromB.ended) {
+        fromB.step(stream.exponential(), depth, limit, estimate.tally,
+                   [&](double y) { return control.nullRatio(depth - y); });
+      }
+    }
+    estimate.value = filled<N>(0);
+    addJoins(estimate.value, fromA, fromB, depth);
+    if (fromA.arrived) addRatio(estimate.value, fromA.prefixes.back(), depth);
+    return estimate;
+  }
+
+ private:
+  /// The first points of a walk.
+  template <std::size_t N>
+  struct Prefix {
+    double depth = 0;    ///< of its last point, from the walk's start
+    double gapSum = 0;   ///< sum of e^gap over the gaps before its points
+    Channels<N> weight;  ///< product of the null ratios: weight 2^exponent
+    std::array<std::int64_t, N> exponent;
+    double logLargest = 0;  ///< ln of the largest |product|
+  };
+
+  template <std::size_t N>
+  struct Walk {
+    std::pmr::vector<Prefix<N>> prefixes;  ///< of 0, 1, 2, ... points
+    ChannelProducts<N> product;
+    bool ended = false, arrived = false;
+
+    explicit Walk(std::pmr::memory_resource* memory) : prefixes(memory) { push(0, 0); }
+
+    template <class NullRatio>
+    void step(double gap, double depth, const LookupLimit& limit, LookupTally& tally, NullRatio&& nullRatio) {
+      const double at = prefixes.back().depth + gap;
+      arrived = at >= depth;
+      ended = arrived || limit.reached(tally);
+      if (ended) return;
+      product.multiply(nullRatio(at));
+      ++tally.nullCollisions;
+      ended = product.magnitude() == 0;
+      if (!ended) push(at, prefixes.back().gapSum + std::exp(gap));
+    }
+    void push(double at, double gapSum) {
+      Prefix<N> prefix;
+      prefix.depth = at;
+      prefix.gapSum = gapSum;
+      prefix.logLargest = -std::numeric_limits<double>::infinity();
+      for (std::size_t c = 0; c < N; ++c) {
+        prefix.weight[c] = product[c].mantissa();
+        prefix.exponent[c] = product[c].exponent();
+        prefix.logLargest = std::max(prefix.logLargest, product[c].logMagnitude());
+      }
+      prefixes.push_back(prefix);
+    }
+  };
+
+  /// All pairs of beginnings that do not overlap, the narrowest gaps first. Wider gaps are left out where
+  /// what they still could add, at most |R| e^{-gap} each, is lost in the rounding of every channel's sum.
+  template <std::size_t N>
+  static void addJoins(Channels<N>& sum, const Walk<N>& fromA, const Walk<N>& fromB, double depth) {
+    double largestB = -std::numeric_limits<double>::infinity();
+    for (const Prefix<N>& b : fromB.prefixes) largestB = std::max(largestB, b.logLargest);
+    const double pairs =
+        static_cast<double>(fromA.prefixes.size()) * static_cast<double>(fromB.prefixes.size());
+    constexpr double kRounding = 0x1p-60, kNothingLeft = -800;  // of e^x in double
+    Channels<N> size{};                                         // sums of absolute values
+    auto end = fromB.prefixes.end();
+    for (const Prefix<N>& a : fromA.prefixes) {
+      while (end != fromB.prefixes.begin() && !(a.depth < depth - (end - 1)->depth)) --end;
+      const double visible =
+          std::max(kNothingLeft, std::log(*std::min_element(size.begin(), size.end()) * kRounding / pairs));
+      const double widest = a.logLargest + largestB - visible;
+      for (auto b = end; b != fromB.prefixes.begin();) {
+        --b;
+        const double gap = depth - b->depth - a.depth;
+        if (gap > widest) break;
+        const double others = 1 + a.gapSum + b->gapSum;
+        for (std::size_t c = 0; c < N; ++c) {
+          const double term =
+              scoreOf(a.weight[c] * b->weight[c], a.exponent[c] + b->exponent[c], others, gap);
+          addTerm(sum[c], term);
+          addTerm(size[c], std::abs(term));
+        }
+      }
+    }
+  }
+  /// The ratio tracking technique's share of the whole walk from a.
+  template <std::size_t N>
+  static void addRatio(Channels<N>& sum, const Prefix<N>& whole, double depth) {
+    for (std::size_t c = 0; c < N; ++c) {
+      addTerm(sum[c], scoreOf(whole.weight[c], whole.exponent[c], 1 + whole.gapSum, depth - whole.depth));
+    }
+  }
+  /// mantissa 2^exponent / (others + e^gap), from the exponents' difference where a part has no double.
+  static double scoreOf(double mantissa, std::int64_t exponent, double others, double gap) {
+    constexpr double kLn2 = 0.69314718055994530942, kWideGap = 600;
+    if (exponent == 0 && gap < kWideGap) [[likely]] {
+      return mantissa / (others + std::exp(gap));
+    }
+    if (mantissa == 0) return 0;
+    // others + e^gap = e^gap (1 + others e^-gap)
+    return mantissa / (1 + others * std::exp(-gap)) * std::exp(static_cast<double>(exponent) * kLn2 - gap);
+  }
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "transmittance/davis_law.h"
+#include "transmittance/exponential_law.h"
+#include "transmittance/linear_law.h"
+#include "transmittance/mixture_law.h"
+#include "transmittance/parameters.h"
+#include "transmittance/pink_noise_law.h"
+
+namespace pbrtmedia {
+
+/// The one list of laws; the first is the default. A law g turns optical depth F >= 0 into transmittance:
+/// g(0) = 1, falling, g >= 0. Each is a small value with `kName`, `kFormula`, g as its call operator, and
+/// parameters().
+using AnyLaw = std::variant<ExponentialLaw, PinkNoiseLaw, DavisLaw, LinearLaw, MixtureLaw>;
+
+/// g(F). F below 0, which only corrected quadrature can find, counts as 0 except for the exponential law.
+inline double transmittanceOf(const AnyLaw& law, double depth) {
+  if (const auto* exponential = std::get_if<ExponentialLaw>(&law)) return (*exponential)(depth);
+  return std::visit([&](const auto& g) { return g(std::max(depth, 0.0)); }, law);
+}
+
+std::string_view nameOf(const AnyLaw& law);
+std::optional<AnyLaw> findLaw(std::string_view name);
+std::vector<std::string_view> lawNames();
+std::vector<ParameterDescription> parametersOf(const AnyLaw& law);
+AssignResult setParameter(AnyLaw& law, std::string_view name, const ParameterValue& value);
+
+/// The laws that an estimator serves, a bit for each alternative of AnyLaw.
+class LawSet {
+ public:
+  static constexpr LawSet all() { return LawSet((1u << std::variant_size_v<AnyLaw>)-1); }
+  static constexpr LawSet exponential() { return LawSet(1u); }
+  static constexpr LawSet pinkNoise() { return LawSet(2u); }
+
+  constexpr bool has(const AnyLaw& law) const { return (bits_ >> law.index() & 1u) != 0; }
+  constexpr bool operator==(const LawSet&) const = default;
+  std::vector<std::string_view> names() const;
+
+ private:
+  constexpr explicit LawSet(unsigned bits) : bits_(bits) {}
+  unsigned bits_;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include "base/rng.h"
+#include "fields/density_line.h"
+#include "transmittance/estimate.h"
+#include "transmittance/probe.h"
+
+namespace pbrtmedia {
+
+/// Whether all bounds of the line are 0, or it has no length: its transmittance is 1. Stops at the first
+/// positive bound; where the bounds are unproven each stretch of vacuum is probed once.
+template <DensityLine Line>
+bool isVacuum(const Line& line, Rng& rng, LookupTally& tally) {
+  bool vacuum = true;
+  line.walk([&](double, double, const SuperVoxel& bound) { return vacuum = !(bound.upper > 0); });
+  if constexpr (!Line::kProvenBounds) {
+    if (vacuum) {
+      line.walk([&](double sEnter, double sExit, const SuperVoxel&) {
+        probeEmpty(line, sEnter, sExit, rng, tally);
+        return true;
+      });
+    }
+  }
+  return vacuum;
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "fields/canonical_function.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pbrtmedia {
+namespace {
+
+/// Five-point Gauss-Legendre quadrature on `n` parts of each stretch between knots.
+double quadrature(const CanonicalFunction& f, double a, double b, int n = 4000) {
+  constexpr std::array<double, 3> kNodes{0, 0.53846931010568309, 0.90617984593866399};
+  constexpr std::array<double, 3> kWeights{128.0 / 225, 0.47862867049936647, 0.23692688505618909};
+  double sum = 0;
+  std::vector<double> cuts{a};
+  for (const double knot : f.knots()) {
+    if (knot > a && knot < b) cuts.push_back(knot);
+  }
+  cuts.push_back(b);
+  for (std::size_t k = 1; k < cuts.size(); ++k) {
+    const double half = (cuts[k] - cuts[k - 1]) / n / 2;
+    for (int i = 0; i < n; ++i) {
+      const double middle = cuts[k - 1] + (2 * i + 1) * half;
+      double part = kWeights[0] * f(middle);
+      for (std::size_t j = 1; j < 3; ++j) {
+        part += kWeights[j] * (f(middle - kNodes[j] * half) + f(middle + kNodes[j] * half));
+      }
+      sum += half * part;
+    }
+  }
+  return sum;
+}
+
+CanonicalFunction named(std::string_view name) {
+  const auto found = findCanonicalFunction(name);
+  EXPECT_TRUE(found) << name;
+  return found.value();
+}
+
+class EveryFunction : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  CanonicalFunction f_ = named(GetParam());
+};
+
+TEST_P(EveryFunction, IsCalledAsItIsFound) {
+  EXPECT_EQ(f_.about().name, GetParam());
+  EXPECT_FALSE(f_.about().formula.empty());
+  EXPECT_FALSE(f_.about().source.empty());
+}
+
+TEST_P(EveryFunction, IntegralsAgreeWithQuadrature) {
+  const double w = f_.width(), scale = f_.integral();
+  EXPECT_NEAR(f_.integral() / quadrature(f_, 0, w), 1, 1e-12);
+  for (const auto& [a, b] : {std::pair{0.0, 0.3}, {0.1, 0.62}, {0.25, 0.26}, {0.599, 0.61}, {0.7, 1.0}}) {
+    EXPECT_NEAR(f_.integral(a * w, b * w), quadrature(f_, a * w, b * w), 1e-12 * scale) << a << ' ' << b;
+  }
+  EXPECT_EQ(f_.integral(0.3 * w, 0.3 * w), 0);
+}
+
+TEST_P(EveryFunction, ExtremaAgreeWithADenseSearch) {
+  constexpr int kPoints = 200000;
+  for (const auto& [a, b] : {std::pair{0.0, 1.0}, {0.1, 0.3}, {0.31, 0.33}, {0.55, 0.95}}) {
+    const double from = a * f_.width(), to = b * f_.width();
+    const CanonicalFunction::Range range = f_.range(from, to);
+    double least = f_(from), most = least;
+    for (int i = 0; i <= kPoints; ++i) {
+      const double value = f_(std::min(to, from + (to - from) * i / kPoints));
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+    // Bounds, and tight ones: a turning point is missed by half a step at most, a smooth function then by
+    // half its second derivative (below 2e5) times that squared.
+    EXPECT_LE(range.min, least);
+    EXPECT_GE(range.max, most);
+    EXPECT_NEAR(range.min, least, 1e-6);
+    EXPECT_NEAR(range.max, most, 1e-6);
+  }
+}
+
+TEST_P(EveryFunction, IsNeverNegativeAndKnotsSpanTheDomain) {
+  EXPECT_EQ(f_.knots().front(), 0);
+  EXPECT_EQ(f_.knots().back(), f_.width());
+  EXPECT_TRUE(std::is_sorted(f_.knots().begin(), f_.knots().end()));
+  for (int i = 0; i <= 10000; ++i) EXPECT_GE(f_(f_.width() * i / 10000), 0);
+  EXPECT_EQ(f_(-1), f_(0));
+  EXPECT_EQ(f_(f_.width() + 1), f_(f_.width()));
+}
+
+INSTANTIATE_TEST_SUITE_P(CanonicalFunction, EveryFunction, ::testing::ValuesIn(canonicalFunctionNames()),
+                         [](const auto& tested) {
+                           std::string name(tested.param);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(CanonicalFunction, HasTheThicknessAndTightRatioOfThePaper) {
+  struct Row {
+    std::string_view name;
+    double thickness, tightRatio;  // the ratio: requested thickness / thickness of the tight control
+  };
+  for (const Row& row : {Row{"constant", 1, 1}, Row{"cosine", 1.010572, 0.5}, Row{"gaussian", 1, 0.12533},
+                         Row{"hole", 1, 0.87467}, Row{"linear-up", 1, 0.5}, Row{"linear-down", 1, 0.5}}) {
+    const CanonicalFunction f = named(row.name);
+    EXPECT_NEAR(f.integral(), row.thickness, 5e-7) << row.name;
+    EXPECT_NEAR(1 / f.range().max, row.tightRatio, 5e-6) << row.name;
+  }
+}
+
+TEST(CanonicalFunction, CompositeFunctionsHaveTheExtremaOfThePaper) {
+  const CanonicalFunction composite = named("composite-sine"), steps = named("step-sine"),
+                          gaussian = named("gaussian-m23");
+  EXPECT_NEAR(composite.integral(), 1, 5e-6);
+  EXPECT_NEAR(composite.range().max, 1.6463, 5e-5);
+  EXPECT_NEAR(composite.range().min, 0.4403, 5e-5);
+  EXPECT_NEAR(gaussian.integral(), 1, 5e-4);
+  EXPECT_NEAR(steps.range().max, 3.2158, 5e-5);
+  EXPECT_NEAR(steps.range().min, 0.1564, 5e-5);
+  // Half a digit of the printed value, and half a digit of each of the five printed amplitudes.
+  EXPECT_NEAR(std::exp(-steps.integral(0, 1)), 0.8123, 5e-5 + 5 * 5e-7);
+  EXPECT_NEAR(std::exp(-steps.integral(0, 3)), 0.0016, 5e-5);
+}
+
+TEST(CanonicalFunction, FractalsHaveTheExtremaOfTheirDefinition) {
+  EXPECT_NEAR(named("fractal-a").range().max, 2.136, 5e-4);
+  EXPECT_NEAR(named("fractal-a").integral(), 1, 1e-14);
+  // Before scaling the mean is 3.80373 and the constant term 0.8 + 6 x, so 6 x becomes 1.577399 x.
+  const CanonicalFunction b = named("fractal-b");
+  EXPECT_NEAR(b.integral(), 1, 1e-14);
+  EXPECT_NEAR(b(1) - b(0),
+              (6 + 0.3 *
+                       [] {
+                         double difference = 0;
+                         for (int k = 0; k < 8; ++k) {
+                           const double phase = 0.7 * k * k;
+                           difference += std::exp2(-0.5 * k) *
+                                         (std::cos(2 * M_PI * std::exp2(k) * 1.37 + phase) - std::cos(phase));
+                         }
+                         return difference;
+                       }()) /
+                  3.80373,
+              1e-5);
+}
+
+TEST(CanonicalFunction, BothValuesOfAJumpBelongToARangeThatTouchesIt) {
+  const CanonicalFunction step = named("step");
+  EXPECT_EQ(step.range(0.2, 0.6).max, 2.2);
+  EXPECT_EQ(step.range(0.6, 0.8).min, 0.2);
+  EXPECT_EQ(step.range(0.2, 0.5999).max, 0.2);
+  EXPECT_EQ(step(0.6), 2.2);
+  EXPECT_TRUE(step.isPiecewisePolynomial());
+  EXPECT_FALSE(named("cosine").isPiecewisePolynomial());
+}
+
+TEST(CanonicalFunction, ClampedStretchesIntegrateToZero) {
+  // max(0, 1 - 2 x): the triangle on [0, 1/2].
+  const CanonicalFunction f({"ramp", "max(0, 1 - 2 x)", "test"}, {{.end = 1, .constant = 1, .slope = -2}});
+  EXPECT_DOUBLE_EQ(f.integral(), 0.25);
+  EXPECT_EQ(f.integral(0.6, 0.9), 0);
+  EXPECT_EQ(f.knots().size(), 3u);
+  EXPECT_NEAR(f.knots()[1], 0.5, 1e-15);
+}
+
+TEST(CanonicalFunction, UnknownNamesAndBrokenStretchesAreRejected) {
+  EXPECT_FALSE(findCanonicalFunction("cosin"));
+  EXPECT_THROW(CanonicalFunction({"none", "", ""}, {}), std::invalid_argument);
+  EXPECT_THROW(CanonicalFunction({"back", "", ""}, {{.end = 1}, {.end = 0.5}}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace pbrtmedia

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "fields/canonical_line.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace pbrtmedia {
+namespace {
+
+class EveryLine : public ::testing::TestWithParam<std::string_view> {
+ protected:
+  CanonicalFunction f_ = findCanonicalFunction(GetParam()).value();
+};
+
+TEST_P(EveryLine, BoundsHoldMeansAreExactAndIntervalsJoin) {
+  for (const unsigned superVoxels : {1u, 2u, 7u, 64u}) {
+    const CanonicalLine line(f_, {.length = 3, .scale = 0.7, .lower = 1, .superVoxels = superVoxels});
+    double end = 0, integral = 0;
+    for (const CanonicalLine::Interval& i : line.intervals()) {
+      EXPECT_EQ(i.sEnter, end);
+      end = i.sExit;
+      integral += (i.sExit - i.sEnter) * static_cast<double>(i.bound.mean);
+      for (int j = 0; j <= 1000; ++j) {
+        const float density = line.density(i.sEnter + (i.sExit - i.sEnter) * j / 1000);
+        EXPECT_LE(density, i.bound.upper);
+        EXPECT_GE(density, i.bound.lower);
+      }
+    }
+    EXPECT_EQ(line.intervals().size(), superVoxels);
+    EXPECT_EQ(end, 3);
+    EXPECT_NEAR(integral / line.integral(), 1, 1e-7);
+    EXPECT_GE(line.upperIntegral(), line.integral() * (1 - 1e-7));
+    EXPECT_LE(line.lowerIntegral(), line.integral() * (1 + 1e-7));
+  }
+}
+
+TEST_P(EveryLine, PiecesOfPolynomialsIntegrateExactly) {
+  const CanonicalLine line(f_, {.length = 2});
+  if (!line.isPiecewiseCubic()) return;
+  double sum = 0, end = 0;
+  line.walkPieces([&](double a, double b) {
+    EXPECT_EQ(a, end);
+    end = b;
+    sum += (b - a) * static_cast<double>(line.density((a + b) / 2));  // exact: degree <= 1
+    return true;
+  });
+  EXPECT_EQ(end, line.length());
+  EXPECT_NEAR(sum / line.integral(), 1, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(CanonicalLine, EveryLine, ::testing::ValuesIn(canonicalFunctionNames()),
+                         [](const auto& tested) {
+                           std::string name(tested.param);
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST(CanonicalLine, ControlAndLowerScaleTheBounds) {
+  const CanonicalFunction f = findCanonicalFunction("composite-sine").value();
+  const CanonicalLine line(f, {.scale = 2, .control = 0.6, .lower = 0.5});
+  EXPECT_NEAR(line.intervals()[0].bound.upper, 0.6 * 2 * 1.6463, 2e-4);
+  EXPECT_NEAR(line.intervals()[0].bound.lower, 0.5 * 2 * 0.4403, 2e-4);
+  const CanonicalLine plain(f, {.hasMeans = false});
+  EXPECT_EQ(plain.intervals()[0].bound.lower, 0);
+  EXPECT_FALSE(plain.intervals()[0].bound.hasMean());
+}
+
+TEST(CanonicalLine, AnyLengthCarriesTheSameShape) {
+  const CanonicalFunction f = findCanonicalFunction("cosine").value();
+  for (const double length : {1e-30, 0.5, 1e30}) {
+    const CanonicalLine line(f, {.length = length, .superVoxels = 5});
+    EXPECT_EQ(line.density(0.25 * length), static_cast<float>(f(0.25)));
+    EXPECT_DOUBLE_EQ(line.integral(), f.integral() * length);
+    EXPECT_EQ(line.intervals().back().sExit, length);
+  }
+  const CanonicalLine none(f, {.length = 0});
+  EXPECT_TRUE(none.intervals().empty());
+  EXPECT_EQ(none.integral(), 0);
+}
+
+TEST(CanonicalLine, AnOffsetCostsDigitsOnly) {
+  const CanonicalFunction f = findCanonicalFunction("cosine").value();
+  const CanonicalLine line(f, {.offset = 1e6});
+  for (int i = 0; i <= 100; ++i) EXPECT_NEAR(line.density(i / 100.0), f(i / 100.0), 1e-7 + 20 * 1e-10);
+}
+
+TEST(CanonicalLine, RecordsItsLookUps) {
+  const CanonicalFunction f = findCanonicalFunction("cosine").value();
+  CanonicalLine line(f, {});
+  std::vector<double> points;
+  line.record(&points);
+  line.density(0.25);
+  line.density(0.5);
+  line.record(nullptr);
+  line.density(0.75);
+  EXPECT_EQ(points, (std::vector{0.25, 0.5}));
+}
+
+}  // namespace
+}  // namespace pbrtmedia

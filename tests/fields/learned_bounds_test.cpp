@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "fields/learned_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+#include "base/rng.h"
+#include "fields/constant_field.h"
+#include "fields/field_line.h"
+#include "fields/progressive_field.h"
+
+namespace pbrtmedia {
+namespace {
+
+constexpr std::uint64_t kSeed = 20241126;
+
+SuperVoxels lattice(std::int64_t n) {
+  return SuperVoxels(LatticeShape{{n, n, n}}, 1.0, {{0, 0, 0}, Vec3d(1, 1, 1) * static_cast<double>(n)},
+                     [](std::int64_t, std::int64_t, std::int64_t) {
+                       return SuperVoxel{1, 0, 1};
+                     });
+}
+
+float density(Vec3d p) { return static_cast<float>(p.x * p.y + .1 * p.z); }
+
+TEST(LearnedBounds, CutToTheBoundInForceAndRaiseItOnlyWhenPublished) {
+  LearnedBounds bounds(lattice(2), {.initial = .5f, .epsilon = .25f});
+  EXPECT_EQ(bounds.bounded({.5, .5, .5}, .25f), .25f);
+  EXPECT_EQ(bounds.bounded({.5, .5, .5}, 2.0f), .5f);
+  EXPECT_EQ(bounds.bounded({.5, .5, .5}, 2.0f), .5f) << "a proposal has no effect within the pass";
+  EXPECT_EQ(bounds.inForce().at(0, 0, 0).upper, .5f);
+  bounds.publish();
+  EXPECT_EQ(bounds.inForce().at(0, 0, 0).upper, 2.25f);
+  EXPECT_EQ(bounds.inForce().at(0, 0, 0).lower, 0.0f) << "the least density seen minus epsilon";
+  EXPECT_EQ(bounds.inForce().at(1, 0, 0).upper, .5f);
+  EXPECT_EQ(bounds.inForce().maximum(), 2.25f);
+  EXPECT_EQ(bounds.bounded({.5, .5, .5}, 2.0f), 2.0f);
+  EXPECT_EQ(bounds.progress().passes, 1u);
+  EXPECT_EQ(bounds.progress().raised, 1u);
+  EXPECT_EQ(bounds.progress().visited, 1u);
+  EXPECT_EQ(bounds.progress().cells, 8u);
+}
+
+TEST(LearnedBounds, NeverFallAndBoundWhatWasSeen) {
+  LearnedBounds bounds(lattice(4), {.initial = .01f, .epsilon = .01f});
+  Rng rng(kSeed);
+  for (int pass = 0; pass < 20; ++pass) {
+    const std::vector<float> before = bounds.save();
+    for (int n = 0; n < 500; ++n) {
+      const Vec3d p = Vec3d(rng.uniformDouble(), rng.uniformDouble(), rng.uniformDouble()) * 4;
+      const float d = density(p);
+      ASSERT_LE(bounds.bounded(p, d), bounds.inForce().upperOf(bounds.inForce().cellAt(p)));
+    }
+    bounds.publish();
+    const std::vector<float> after = bounds.save();
+    for (std::size_t i = 0; i < after.size(); i += 2) ASSERT_GE(after[i], before[i]);
+  }
+  int violations = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const Vec3d p = Vec3d(rng.uniformDouble(), rng.uniformDouble(), rng.uniformDouble()) * 4;
+    violations += density(p) > bounds.inForce().upperOf(bounds.inForce().cellAt(p));
+  }
+  EXPECT_LT(violations, 600) << "after 10000 lookups in 64 cells most of the volume is bounded";
+}
+
+TEST(LearnedBounds, DependOnNeitherThreadsNorOrder) {
+  std::vector<std::vector<float>> results;
+  for (const int threads : {1, 4}) {
+    LearnedBounds bounds(lattice(4), {});
+    for (int pass = 0; pass < 3; ++pass) {
+      std::vector<std::thread> crew;
+      for (int t = 0; t < threads; ++t) {
+        crew.emplace_back([&, t] {
+          for (int n = t; n < 4000; n += threads) {
+            Rng rng(kSeed + static_cast<std::uint64_t>(pass * 4000 + n));
+            const Vec3d p = Vec3d(rng.uniformDouble(), rng.uniformDouble(), rng.uniformDouble()) * 4;
+            bounds.bounded(p, density(p));
+          }
+        });
+      }
+      for (std::thread& thread : crew) thread.join();
+      bounds.publish();
+    }
+    results.push_back(bounds.save());
+  }
+  EXPECT_EQ(results[0], results[1]);
+}
+
+TEST(LearnedBounds, LetDensitiesPassWithinTheSlack) {
+  LearnedBounds bounds(lattice(1), {.initial = 1, .epsilon = .5f, .slack = .25f});
+  EXPECT_EQ(bounds.bounded({.5, .5, .5}, 1.2f), 1.2f);
+  EXPECT_EQ(bounds.bounded({.5, .5, .5}, 4.5f), 1.25f);
+  bounds.publish();
+  EXPECT_FLOAT_EQ(bounds.inForce().at(0, 0, 0).upper, 4);
+}
+
+TEST(LearnedBounds, StartWhereOthersStopped) {
+  LearnedBounds first(lattice(2), {}), second(lattice(2), {}), other(lattice(3), {});
+  first.bounded({.5, .5, .5}, 7);
+  first.publish();
+  ASSERT_TRUE(second.restore(first.save()));
+  EXPECT_EQ(second.save(), first.save());
+  second.publish();
+  EXPECT_EQ(second.save(), first.save());
+  EXPECT_FALSE(other.restore(first.save()));
+  std::vector<float> bad = first.save();
+  for (const float wrong : {-1.0f, 0.0f, std::numeric_limits<float>::quiet_NaN(), kInfinity}) {
+    bad[2] = wrong;
+    EXPECT_FALSE(second.restore(bad)) << wrong;
+  }
+  EXPECT_EQ(second.save(), first.save());
+}
+
+TEST(ProgressiveField, IsItsFieldCutToTheBounds) {
+  ConstantField constant({.density = 3}, Transform());
+  ProgressiveField<ConstantField> field(constant, constant.superVoxels(), {.initial = .5f, .epsilon = .5f});
+  EXPECT_EQ(field.density({.5, .5, .5}), .5f);
+  field.learned().publish();
+  EXPECT_EQ(field.density({.5, .5, .5}), 3.0f);
+  const Segment through{{-1, .5f, .5f}, {1, 0, 0}, 0, 10};
+  const auto line =
+      FieldLine<ProgressiveField<ConstantField>>::clip(field, field.learned().inForce(), through);
+  ASSERT_TRUE(line);
+  const std::vector<double> s{.1, .5, .9, .95, .99};
+  std::vector<float> out(s.size());
+  line->densities(s, out);
+  EXPECT_EQ(out, std::vector<float>(5, 3.0f));
+}
+
+}  // namespace
+}  // namespace pbrtmedia

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What every free-flight sampler of the list promises by its traits, checked over the list.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "freeflight/any_sampler.h"
+#include "support/contract_line.h"
+#include "support/statistics.h"
+
+namespace pbrtmedia {
+namespace {
+
+using test::ContractLine;
+using test::kMaxAbsZ;
+using test::RunningStats;
+
+constexpr std::uint64_t kSeed = 20241125;
+
+template <std::size_t N>
+FlightSample<N> run(const AnySampler& sampler, const ContractLine& line, const Channels<N>& sigmaT, Rng& rng,
+                    double albedo = .8) {
+  return std::visit([&](const auto& held) { return fly(held, line, sigmaT, filled<N>(albedo), rng); },
+                    sampler);
+}
+
+/// Every model, as far as a parameter chooses one.
+std::vector<AnySampler> variantsOf(std::string_view name) {
+  std::vector<AnySampler> all{*findSampler(name)};
+  for (const std::string model : {"terminating", "nonterminating"}) {
+    AnySampler other = *findSampler(name);
+    if (setParameter(other, "model", ParameterValue(model)).known) all.push_back(other);
+  }
+  return all;
+}
+
+class SamplerContract : public testing::TestWithParam<std::string_view> {
+ protected:
+  AnySampler sampler_ = *findSampler(GetParam());
+  SamplerTraits traits_ = traitsOf(sampler_);
+};
+
+TEST_P(SamplerContract, SaysWhatItIs) {
+  EXPECT_FALSE(traits_.summary.empty());
+  EXPECT_FALSE(traits_.source.empty());
+  EXPECT_FALSE(traits_.useWhen.empty());
+  EXPECT_TRUE(traits_.bias == EstimatorTraits::Bias::Unbiased || !traits_.biasNote.empty());
+}
+
+TEST_P(SamplerContract, DescribesParametersThatCanBeSet) {
+  std::set<std::string> names;
+  for (const ParameterDescription& d : parametersOf(sampler_)) {
+    EXPECT_TRUE(names.insert(d.name).second) << d.name << " twice";
+    const ParameterValue value =
+        d.type == "string" ? ParameterValue(d.value) : ParameterValue(std::stod(d.value));
+    const AssignResult set = setParameter(sampler_, d.name, value);
+    EXPECT_TRUE(set.known && !set.error) << d.name;
+    const AssignResult wrong = setParameter(sampler_, d.name, ParameterValue(true));
+    EXPECT_TRUE(wrong.known && wrong.error) << d.name;
+  }
+  EXPECT_FALSE(setParameter(sampler_, "nosuchparameter", ParameterValue(1.0)).known);
+}
+
+TEST_P(SamplerContract, PassesWhatHoldsNothing) {
+  Rng rng(kSeed);
+  for (const auto kind : {ContractLine::Kind::Vacuum, ContractLine::Kind::Point}) {
+    for (int n = 0; n < 20; ++n) {
+      const auto flight = run<1>(sampler_, ContractLine(kind), {3}, rng);
+      EXPECT_FALSE(flight.collided);
+      EXPECT_EQ(flight.weight[0], 1.0);
+    }
+  }
+  const auto clear = run<3>(sampler_, ContractLine(), {0, 0, 0}, rng);
+  EXPECT_FALSE(clear.collided);
+  for (const double w : clear.weight) EXPECT_EQ(w, 1.0);
+}
+
+TEST_P(SamplerContract, CountsEveryLookup) {
+  const ContractLine line(1.5);
+  Rng rng(kSeed);
+  std::uint64_t lookups = 0;
+  for (int n = 0; n < 500; ++n) {
+    lookups += run<1>(sampler_, line, {2}, rng).tally.lookups;
+    lookups += run<3>(sampler_, line, {.5, 1, 2}, rng).tally.lookups;
+  }
+  EXPECT_EQ(lookups, line.asked());
+}
+
+/// Weighted collisions per bin and transmitted weight, against exp(-sigma F).
+void expectFlights(const AnySampler& sampler, const ContractLine& line, const Channels<3>& sigma,
+                   double rounding) {
+  constexpr int kBins = 12, kN = 25000;
+  Rng rng(kSeed);
+  RunningStats passed[3], collided[3][kBins], alone[kBins], alonePassed;
+  for (int n = 0; n < kN; ++n) {
+    const auto flight = run<3>(sampler, line, sigma, rng);
+    const auto single = run<1>(sampler, line, {sigma[2]}, rng);
+    const auto bin = [](double s) { return std::min(kBins - 1, static_cast<int>(s / 2 * kBins)); };
+    for (int b = 0; b < kBins; ++b) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        collided[c][b].add(flight.collided && bin(flight.s) == b ? flight.weight[c] : 0);
+      }
+      alone[b].add(single.collided && bin(single.s) == b ? single.weight[0] : 0);
+    }
+    for (std::size_t c = 0; c < 3; ++c) passed[c].add(flight.collided ? 0 : flight.weight[c]);
+    alonePassed.add(single.collided ? 0 : single.weight[0]);
+  }
+  const auto expectMean = [&](const RunningStats& values, double truth, const std::string& what) {
+    EXPECT_LE(std::abs(values.mean() - truth), kMaxAbsZ * values.standardError() + rounding)
+        << nameOf(sampler) << ' ' << what << ": " << test::zTest(values, truth, kSeed);
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto through = [&](double s) { return std::exp(-sigma[c] * ContractLine::integralTo(s)); };
+    const std::string channel = "channel " + std::to_string(c);
+    expectMean(passed[c], through(2), channel + " passed");
+    for (int b = 0; b < kBins; ++b) {
+      const double share = through(2. * b / kBins) - through(2. * (b + 1) / kBins);
+      expectMean(collided[c][b], share, channel + " bin " + std::to_string(b));
+      if (c == 2) expectMean(alone[b], share, "alone, bin " + std::to_string(b));
+    }
+    if (c == 2) expectMean(alonePassed, through(2), "alone passed");
+  }
+}
+
+TEST_P(SamplerContract, FliesAsTheDensitySays) {
+  for (const AnySampler& sampler : variantsOf(GetParam())) {
+    for (const double looseness : {1., 2.5}) {
+      // The midpoint rule with 64 steps misses the edges of pieces by a fraction of a step.
+      const double rounding = traits_.bias == EstimatorTraits::Bias::Unbiased ? 1e-6 : 4e-3;
+      expectFlights(sampler, ContractLine(looseness, looseness > 2), {0, 1, 3}, rounding);
+    }
+  }
+}
+
+TEST_P(SamplerContract, StaysRightUnderALowControlIfItSaysSo) {
+  if (traits_.bias != EstimatorTraits::Bias::Unbiased ||
+      traits_.control == EstimatorTraits::Control::Bounding) {
+    GTEST_SKIP() << "makes no such claim";
+  }
+  for (const AnySampler& sampler : variantsOf(GetParam())) {
+    expectFlights(sampler, ContractLine(.7, false, .5), {.2, .6, 1.5}, 1e-6);
+  }
+}
+
+TEST_P(SamplerContract, KeepsWeightOneIfItSaysSo) {
+  if (!traits_.unitWeights) GTEST_SKIP() << "makes no such claim";
+  Rng rng(kSeed);
+  for (int n = 0; n < 20000; ++n) {
+    const auto flight = run<1>(sampler_, ContractLine(n % 2 ? 1 : 3, n % 3 == 0), {2}, rng);
+    ASSERT_NEAR(flight.weight[0], 1.0, 1e-12);
+    if (flight.collided) {
+      ASSERT_GE(flight.s, 0.0);
+      ASSERT_LE(flight.s, 2.0);
+    }
+  }
+}
+
+TEST_P(SamplerContract, StaysFiniteFromThinnestToThickest) {
+  for (const double sigma : {1e-300, 1e-30, 1e-8, 1e-3, 1., 30., 1e3, 1e6}) {
+    Rng rng(kSeed);
+    for (int n = 0; n < 5; ++n) {
+      const auto one = run<1>(sampler_, ContractLine(), {sigma}, rng);
+      const auto three = run<3>(sampler_, ContractLine(), {0, sigma / 100, sigma}, rng);
+      EXPECT_TRUE(std::isfinite(one.weight[0])) << sigma;
+      for (const double w : three.weight) EXPECT_TRUE(std::isfinite(w)) << sigma;
+    }
+  }
+}
+
+TEST_P(SamplerContract, TakesTheSameStepsOnAShorterLine) {
+  if (traits_.bias != EstimatorTraits::Bias::Unbiased) GTEST_SKIP() << "its steps are shares of the line";
+  // Overlapping media rely on it: up to the cut the flight is the same, and one that ended beyond it passes.
+  for (const double cut : {.5, 1.2, 1.7}) {
+    for (std::uint64_t seed = 0; seed < 500; ++seed) {
+      Rng whole(seed), part(seed);
+      ContractLine shorter(1.5);
+      shorter.cutAt(cut);
+      const auto a = run<1>(sampler_, ContractLine(1.5), {2}, whole),
+                 b = run<1>(sampler_, shorter, {2}, part);
+      ASSERT_EQ(b.collided, a.collided && a.s < cut) << seed;
+      if (b.collided) {
+        ASSERT_NEAR(b.s, a.s, 1e-6) << seed;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SamplerContract, testing::ValuesIn(samplerNames()),
+                         [](const testing::TestParamInfo<std::string_view>& parameter) {
+                           std::string name;
+                           bool capital = true;
+                           for (const char c : parameter.param) {
+                             if (c != '-') name += capital ? static_cast<char>(c - 'a' + 'A') : c;
+                             capital = c == '-';
+                           }
+                           return name;
+                         });
+
+/// The contract can fail: another optical depth is noticed.
+TEST(SamplerContractItself, NoticesAnExtinctionThatIsThreePercentOff) {
+  Rng rng(kSeed);
+  RunningStats passed;
+  for (int n = 0; n < 100000; ++n) {
+    passed.add(run<1>(WeightedDeltaTracking{}, ContractLine(), {.97}, rng).collided ? 0 : 1);
+  }
+  EXPECT_GT(std::abs(passed.mean() - std::exp(-ContractLine::integral())), kMaxAbsZ * passed.standardError());
+}
+
+}  // namespace
+}  // namespace pbrtmedia

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// The parts of medialab that need no process.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "base/rng.h"
+#include "support/statistics.h"
+#include "tools/medialab_canvas.h"
+#include "tools/medialab_fit.h"
+#include "tools/medialab_heatmap_picture.h"
+#include "tools/medialab_isolated.h"
+#include "tools/medialab_moments.h"
+#include "tools/medialab_session.h"
+#include "tools/medialab_stress_cases.h"
+#include "tools/medialab_verdict.h"
+
+namespace pbrtmedia {
+namespace {
+
+TEST(Moments, AreThoseOfTheDefinition) {
+  // 1, 2, 3, 4, 10: mean 4, squares 9 4 1 0 36, fourth powers 81 16 1 0 1296.
+  Moments all, left, right;
+  for (const double x : {1, 2, 3, 4, 10}) all.add(x);
+  for (const double x : {1, 2}) left.add(x);
+  for (const double x : {3, 4, 10}) right.add(x);
+  left.add(right);
+  for (const Moments& m : {all, left}) {
+    EXPECT_EQ(m.count(), 5u);
+    EXPECT_NEAR(m.mean(), 4, 1e-14);
+    EXPECT_NEAR(m.variance(), 12.5, 1e-13);
+    EXPECT_NEAR(m.meanError(), std::sqrt(2.5), 1e-14);
+    EXPECT_NEAR(m.varianceError(), std::sqrt((1394.0 / 5 - 12.5 * 12.5 * 2 / 4) / 5), 1e-12);
+  }
+}
+
+TEST(Moments, TellWhenThereIsNothingToSay) {
+  Moments none;
+  EXPECT_TRUE(std::isnan(none.mean()));
+  EXPECT_TRUE(std::isnan(none.variance()));
+  none.add(Moments{});
+  none.add(3);
+  EXPECT_EQ(none.mean(), 3);
+  EXPECT_TRUE(std::isnan(none.meanError()));
+}
+
+TEST(Moments, EqualValuesHaveNoVariance) {
+  Moments m;
+  for (int i = 0; i < 1000; ++i) m.add(0.1);
+  EXPECT_EQ(m.variance(), 0);
+}
+
+TEST(LogSlope, IsExactOnAPowerAndHasTheErrorOfItsPoints) {
+  std::vector<LogPoint> points;
+  for (double x = 1; x < 2000; x *= 2) points.push_back({x, 3 / std::sqrt(x), 0.03 / std::sqrt(x)});
+  const LogSlope fit = fitLogSlope(points);
+  EXPECT_NEAR(fit.slope, -0.5, 1e-12);
+  // Equal relative errors r: the error of the slope is r / sqrt(sum of squared distances in log x).
+  double squares = 0;
+  for (int i = -5; i <= 5; ++i) squares += i * i * std::log(2.0) * std::log(2.0);
+  EXPECT_NEAR(fit.error, 0.01 / std::sqrt(squares), 1e-12);
+  EXPECT_TRUE(std::isnan(fitLogSlope({}).slope));
+  EXPECT_TRUE(std::isnan(fitLogSlope(std::span(points).first(1)).slope));
+}
+
+TEST(LabTable, CsvQuotesAndJsonKeepsTypes) {
+  LabTable table("medialab test", {"name", "value", "count", "yes"});
+  table.add({std::string("a,\"b\""), 0.1, std::uint64_t{7}, true});
+  table.add({std::string("c"), std::nan(""), std::uint64_t{0}, false});
+  table.note("a note");
+  table.skip("x", "because");
+  std::ostringstream csv, json;
+  table.write(csv, TableFormat::Csv);
+  EXPECT_EQ(csv.str(),
+            "# medialab test\n# a note\n# skipped: x: because\nname,value,count,yes\n"
+            "\"a,\"\"b\"\"\",0.1,7,true\nc,nan,0,false\n");
+  table.markStopped();
+  table.write(json, TableFormat::Json);
+  const auto document = nlohmann::json::parse(json.str());
+  EXPECT_EQ(document["command"], "medialab test");
+  EXPECT_EQ(document["rows"][0]["value"], 0.1);
+  EXPECT_TRUE(document["rows"][1]["value"].is_null());
+  EXPECT_EQ(document["skipped"][0]["reason"], "because");
+  EXPECT_EQ(document["stopped"], true);
+  EXPECT_THROW(table.add({0.1}), std::logic_error);
+  EXPECT_THROW(table.column("none"), std::logic_error);
+}
+
+TEST(CommandText, NamesNoFolderAndNothingThatCannotMatter) {
+  const char* words[] = {
+      "/some/where/medialab", "estimate", "--outfile", "/tmp/a b.csv",      "--threads", "3", "--quiet",
+      "--param=a=b c",        "-o",       "/x/y.csv",  "--picture=/p/q.png"};
+  EXPECT_EQ(commandText(11, words),
+            "medialab estimate --outfile 'a b.csv' '--param=a=b c' -o y.csv --picture=q.png");
+}
+
+TEST(ChernoffBound, IsTheExactExponentForCertainEvents) {
+  // All of n values 0 under expectation p has probability (1 - p)^n; the bound doubles it.
+  EXPECT_NEAR(logChernoffBound(0, 0.1, 50), std::log(2 * std::pow(0.9, 50)), 1e-12);
+  EXPECT_NEAR(logChernoffBound(0.1, 0.1, 50), std::log(2.0), 1e-12);
+  EXPECT_LT(logChernoffBound(0.5, 0.1, 50), std::log(1e-8));
+}
+
+IsolatedResult resultOf(const std::vector<double>& values, double expected) {
+  IsolatedResult result;
+  result.end = IsolatedResult::End::Done;
+  for (const double x : values) {
+    result.stats.value.add(x);
+    result.stats.least = std::min(result.stats.least, x);
+    result.stats.most = std::max(result.stats.most, x);
+    result.stats.largestDeviation = std::max(result.stats.largestDeviation, std::abs(x - expected));
+  }
+  return result;
+}
+
+TEST(StressVerdict, FollowsWhatTheTraitsPromise) {
+  using Kind = StressVerdict::Kind;
+  EstimatorTraits t;
+  t.control = EstimatorTraits::Control::Bounding;
+  const StressSetting setting{.exact = 0.5, .depth = std::log(2.0), .controlDepth = 1};
+  std::vector<double> fair, biased;
+  for (int i = 0; i < 1000; ++i) {
+    fair.push_back(i % 2);
+    biased.push_back(i % 4 == 0);
+  }
+  EXPECT_EQ(judge(t, setting, resultOf(fair, 0.5)).kind, Kind::Pass);
+  EXPECT_EQ(judge(t, setting, resultOf(biased, 0.5)).kind, Kind::Fail);
+  // Below a bound nothing is claimed.
+  StressSetting low = setting;
+  low.isBounding = false;
+  EXPECT_EQ(judge(t, low, resultOf(biased, 0.5)).kind, Kind::Expected);
+  // A rare event that did not come.
+  StressSetting rare = setting;
+  rare.exact = 1e-9;
+  EXPECT_EQ(judge(t, rare, resultOf(std::vector<double>(1000, 0.0), 1e-9)).kind, Kind::Undecided);
+  // The same zeros refute a transmittance that would have shown.
+  EXPECT_EQ(judge(t, setting, resultOf(std::vector<double>(1000, 0.0), 0.5)).kind, Kind::Fail);
+  // Outside of [0, 1].
+  EXPECT_EQ(judge(t, setting, resultOf({-1, 2, -1, 2}, 0.5)).kind, Kind::Fail);
+  t.mayLeaveUnitInterval = true;
+  std::vector<double> wide;
+  for (int i = 0; i < 1000; ++i) wide.push_back(i % 2 == 0 ? -1 : 2);
+  EXPECT_EQ(judge(t, setting, resultOf(wide, 0.5)).kind, Kind::Pass);
+  EXPECT_EQ(judge(t, setting, resultOf({-1, 2, -1, 2}, 0.5)).kind, Kind::Undecided);
+  // Values that are not finite.
+  IsolatedResult broken = resultOf(fair, 0.5);
+  broken.stats.nonFinite = 1;
+  EXPECT_EQ(judge(t, setting, broken).kind, Kind::Fail);
+  IsolatedResult crashed;
+  crashed.end = IsolatedResult::End::Crashed;
+  EXPECT_EQ(judge(t, setting, crashed).kind, Kind::Fail);
+  IsolatedResult hung;
+  hung.end = IsolatedResult::End::OutOfTime;
+  EXPECT_EQ(judge(t, setting, hung).kind, Kind::Fail);
+  t.bias = EstimatorTraits::Bias::Biased;
+  EXPECT_EQ(judge(t, setting, resultOf(biased, 0.5)).kind, Kind::Pass);
+}
+
+TEST(RunIsolated, SurvivesCrashesHangsAndExceptions) {
+  using End = IsolatedResult::End;
+  const std::vector<std::function<TrialStats()>> jobs{[] {
+                                                        TrialStats stats;
+                                                        stats.value.add(0.25);
+                                                        return stats;
+                                                      },
+                                                      []() -> TrialStats {
+                                                        std::signal(SIGABRT, SIG_DFL);
+                                                        std::raise(SIGABRT);
+                                                        return {};
+                                                      },
+                                                      []() -> TrialStats {
+                                                        std::atomic<int> turns{0};
+                                                        for (;;) ++turns;
+                                                      },
+                                                      []() -> TrialStats { throw std::runtime_error("no"); }};
+  const std::atomic<bool> stop{false};
+  std::size_t done = 0;
+  const auto results = runIsolated(jobs, 2, 0.3, stop, [&](std::size_t) { ++done; });
+  EXPECT_EQ(done, 4u);
+  EXPECT_EQ(results[0].end, End::Done);
+  EXPECT_EQ(results[0].stats.value.mean(), 0.25);
+  EXPECT_EQ(results[1].end, End::Crashed);
+  EXPECT_EQ(results[2].end, End::OutOfTime);
+  EXPECT_EQ(results[3].end, End::Threw);
+  EXPECT_EQ(results[3].message, "no");
+  const std::atomic<bool> stopped{true};
+  EXPECT_EQ(runIsolated(jobs, 2, 0.3, stopped, [](std::size_t) {})[0].end, End::NotRun);
+}
+
+TEST(StressCases, HaveNamesOfTheirOwnAndTheDepthTheySay) {
+  std::set<std::string> names;
+  for (const StressCase& one : stressCases()) {
+    EXPECT_TRUE(names.insert(one.name).second) << one.name;
+    const CanonicalLine line(one.function, one.setup);
+    EXPECT_EQ(line.length(), one.setup.length);
+    EXPECT_TRUE(std::isfinite(line.integral()));
+    // The least number a float holds below these densities is far below them, so the depth is met.
+    if (line.integral() > 0) {
+      double sum = 0;
+      for (int i = 0; i < 1000; ++i) {
+        sum += static_cast<double>(line.density((i + 0.5) / 1000 * line.length())) * line.length() / 1000;
+      }
+      if (one.name.find("spike") == std::string::npos && one.name.find("offset") == std::string::npos) {
+        EXPECT_NEAR(sum / line.integral(), 1, 0.01) << one.name;
+      }
+    }
+  }
+  EXPECT_GT(names.size(), 40u);
+}
+
+TEST(Heatmap, TheBestIsTheLeastAndRoundingCountsAsNothing) {
+  Heatmap map{
+      2, 1, 1, {{"a", std::vector<Heatmap::Pixel>(2), true}, {"b", std::vector<Heatmap::Pixel>(2), true}}};
+  const auto set = [&](std::size_t layer, std::size_t pixel, double variance, double lookups) {
+    Heatmap::Pixel& p = map.layers[layer].pixels[pixel];
+    p.exact = p.mean = 0.5;
+    p.variance = variance;
+    p.lookups = lookups;
+    p.seconds = lookups;
+    p.trials = 10;
+  };
+  set(0, 0, 0.2, 1);
+  set(1, 0, 0.1, 3);
+  EXPECT_EQ(map.best(0, Heatmap::Measure::Variance), 1u);
+  EXPECT_EQ(map.best(0, Heatmap::Measure::VarianceLookups), 0u);
+  EXPECT_EQ(map.best(1, Heatmap::Measure::Variance), Heatmap::kNoBest);
+  set(0, 1, 0, 3);
+  set(1, 1, 1e-22, 2);
+  EXPECT_EQ(map.best(1, Heatmap::Measure::Variance), 1u);
+  map.layers[1].pixels[1].mean = 0.4;  // rare events were missed
+  EXPECT_EQ(map.best(1, Heatmap::Measure::Variance), 0u);
+  map.layers[0].isUnbiased = false;
+  EXPECT_EQ(map.best(1, Heatmap::Measure::Variance), Heatmap::kNoBest);
+  map.layers[0].isUnbiased = true;
+  EXPECT_EQ(map.efficiency(0), 1);
+  EXPECT_DOUBLE_EQ(map.transmittance(0), 0.99);
+  EXPECT_NEAR(map.transmittance(1), 0.01, 1e-15);
+  const Image picture = heatmapPicture(map, Heatmap::Measure::Variance, "test");
+  EXPECT_GT(picture.width(), 400);
+  const Image channels = heatmapChannels(map, "medialab", true);
+  EXPECT_EQ(channels.channelCount(), 9u);
+  EXPECT_EQ(channels.at(0, 0, *channels.channelIndex("b.variance")), 0.1f);
+  EXPECT_EQ(channels.at(0, 0, *channels.channelIndex("best.variance_lookups")), 0.0f);
+}
+
+TEST(LabCanvas, LightnessOfTheScaleRisesEvenly) {
+  const auto luminance = [](Rgb c) {
+    return 0.2126f * decodeSrgb(c.r) + 0.7152f * decodeSrgb(c.g) + 0.0722f * decodeSrgb(c.b);
+  };
+  float last = -1;
+  for (int i = 0; i <= 100; ++i) {
+    const float y = luminance(sequentialColour(i / 100.0));
+    EXPECT_GT(y, last);
+    last = y;
+  }
+}
+
+TEST(LabCanvas, DrawsTextAndCutsItAtTheEdge) {
+  LabCanvas canvas(20, 9);
+  canvas.text(0, 0, "II long", {0, 0, 0});
+  EXPECT_EQ(canvas.image().rgb(2, 3), Rgb(0));
+  EXPECT_EQ(canvas.image().rgb(0, 3), Rgb(1));
+  EXPECT_EQ(canvas.image().rgb(8, 3), Rgb(0));
+}
+
+}  // namespace
+}  // namespace pbrtmedia
