@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "freeflight/any_sampler.h"
-#include "media/medium.h"
-#include "media/phase_params.h"
-#include "spectrum/rgb.h"
+#include "media/medium_params.h"
 #include "transmittance/any_estimator.h"
 
 namespace pbrtmedia {
 
 /// What every medium with a density field has: coefficients that its density scales, and its ways of
 /// tracking.
-struct FieldMediumParams {
-  std::string name;
-  Rgb sigmaA{.0011f, .0024f, .014f};  ///< absorption at density 1, 1/world length, >= 0
-  Rgb sigmaS{2.55f, 3.21f, 3.77f};    ///< scattering at density 1, 1/world length, >= 0
-  std::vector<PhaseLobe> phase = {PhaseLobe{}};
-  OverlapRule overlap;
+struct FieldMediumParams : MediumParams {
   AnyEstimator estimator = RatioTracking{.rouletteThreshold = 0.1};
   AnySampler sampler;
 };

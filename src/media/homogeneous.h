@@ -3,10 +3,9 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "media/medium.h"
-#include "media/phase_params.h"
+#include "media/medium_params.h"
 
 namespace pbrtmedia {
 
@@ -14,13 +13,7 @@ namespace pbrtmedia {
 /// exponential, chosen uniformly, and weigh with the mean density of all channels.
 class HomogeneousMedium final : public Medium {
  public:
-  struct Params {
-    std::string name;
-    Rgb sigmaA{.0011f, .0024f, .014f};  ///< absorption, 1/world length, >= 0
-    Rgb sigmaS{2.55f, 3.21f, 3.77f};    ///< scattering, 1/world length, >= 0
-    std::vector<PhaseLobe> phase = {PhaseLobe{}};
-    OverlapRule overlap;
-  };
+  using Params = MediumParams;
   static constexpr std::string_view kTypeName = "homogeneous";
 
   /// Throws SceneError (location unknown) when a parameter is out of range.

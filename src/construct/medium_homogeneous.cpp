@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "construct/medium_kinds.h"
+#include "construct/medium_params.h"
+#include "media/homogeneous.h"
+
+namespace pbrtmedia {
+
+std::optional<MediumPlan> readHomogeneousMedium(ParamReader& in, const MediumDescription& medium) {
+  HomogeneousMedium::Params p;
+  readMediumParams(in, medium, p);
+  return [p] { return std::make_unique<HomogeneousMedium>(p); };
+}
+
+}  // namespace pbrtmedia

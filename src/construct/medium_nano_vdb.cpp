@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include <filesystem>
+
+#include "construct/medium_kinds.h"
+#include "construct/medium_params.h"
+#include "construct/plugins.h"
+#include "media/nano_vdb_medium.h"
+
+namespace pbrtmedia {
+
+std::optional<MediumPlan> readNanoVdbMedium(ParamReader& in, const MediumDescription& medium) {
+  NanoVdbMediumParams p;
+  readFieldMediumParams(in, medium, p);
+  p.field.grid = in.findString("grid", "");
+  p.field.map.scale = in.findFloat("densityscale", 1, Range::nonNegative());
+  p.field.map.offset = in.findFloat("densityoffset", 0);
+  const std::optional<std::filesystem::path> file = in.findInputFile("filename");
+  if (!file) {
+    if (!in.has(ParamKind::String, "filename")) in.error("parameter \"string filename\" is missing");
+    return std::nullopt;
+  }
+  p.field.file = *file;
+  // A grid that is not there is told at its name, what is wrong with the file at the file.
+  const ParamKind kind = ParamKind::String;
+  const SourceLocation named = in.locationOf(kind, in.has(kind, "grid") ? "grid" : "filename");
+  return [p = std::move(p), named, context = in.context(), place = medium.ctm->start] {
+    return builtAt(named, context, [&] { return makeNanoVdbMedium(p, place); });
+  };
+}
+
+}  // namespace pbrtmedia
