@@ -30,9 +30,9 @@ namespace pbrtmedia {
 ///
 /// Bias: none, wherever the bounds are positive. Range: >= 0 while bounds hold, and may exceed 1. Variance:
 /// finite for any positive bounds. Cost: 2 tau_bar look-ups on average, less where the weights reach exactly
-/// 0. Arithmetic: the pairs (beginning from a, beginning from b) that can change the sum's last digit, each
-/// in constant time: all of them in the worst case, some 60 for each point in thin media under loose bounds.
-/// Memory: a record per look-up.
+/// 0. Arithmetic: a division for each pair (beginning from a, beginning from b) that can change the sum's
+/// last digit. Those lie within a gap of 38 + ln(points) or so, whatever the bounds: about as dear as the
+/// look-ups. Memory: a record per look-up.
 struct BidirectionalMis {
   static constexpr std::string_view kName = "bidirectional-mis";
 
@@ -84,10 +84,12 @@ struct BidirectionalMis {
   template <std::size_t N>
   struct Prefix {
     double depth = 0;    ///< of its last point, from the walk's start
+    double gapExp = 1;   ///< e^gap of the gap before its last point
     double gapSum = 0;   ///< sum of e^gap over the gaps before its points
     Channels<N> weight;  ///< product of the null ratios: weight 2^exponent
     std::array<std::int64_t, N> exponent;
     double logLargest = 0;  ///< ln of the largest |product|
+    double logTail = 0;     ///< ln of the sum of all largest |products| up to here times e^-distance to here
   };
 
   template <std::size_t N>
@@ -96,7 +98,9 @@ struct BidirectionalMis {
     ChannelProducts<N> product;
     bool ended = false, arrived = false;
 
-    explicit Walk(std::pmr::memory_resource* memory) : prefixes(memory) { push(0, 0); }
+    explicit Walk(std::pmr::memory_resource* memory) : prefixes(memory) {
+      push({.weight = {}, .exponent = {}});
+    }
 
     template <class NullRatio>
     void step(double gap, double depth, const LookupLimit& limit, LookupTally& tally, NullRatio&& nullRatio) {
@@ -107,12 +111,15 @@ struct BidirectionalMis {
       product.multiply(nullRatio(at));
       ++tally.nullCollisions;
       ended = product.magnitude() == 0;
-      if (!ended) push(at, prefixes.back().gapSum + std::exp(gap));
+      if (ended) return;
+      const double gapExp = std::exp(gap);
+      push({.depth = at,
+            .gapExp = gapExp,
+            .gapSum = prefixes.back().gapSum + gapExp,
+            .weight = {},
+            .exponent = {}});
     }
-    void push(double at, double gapSum) {
-      Prefix<N> prefix;
-      prefix.depth = at;
-      prefix.gapSum = gapSum;
+    void push(Prefix<N> prefix) {
       prefix.logLargest = -std::numeric_limits<double>::infinity();
       for (std::size_t c = 0; c < N; ++c) {
         prefix.weight[c] = product[c].mantissa();
@@ -121,35 +128,47 @@ struct BidirectionalMis {
       }
       prefixes.push_back(prefix);
     }
+    /// Fills in logTail.
+    void sumTails() {
+      double tail = -std::numeric_limits<double>::infinity(), before = 0;
+      for (Prefix<N>& p : prefixes) {
+        const double carried = tail - (p.depth - before), larger = std::max(carried, p.logLargest);
+        tail = larger + std::log1p(std::exp(std::min(carried, p.logLargest) - larger));
+        p.logTail = tail;
+        before = p.depth;
+      }
+    }
   };
 
-  /// All pairs of beginnings that do not overlap, the narrowest gaps first. Wider gaps are left out where
-  /// what they still could add, at most |R| e^{-gap} each, is lost in the rounding of every channel's sum.
+  /// All pairs of beginnings that do not overlap, the narrowest gaps first. Of each beginning from a, wider
+  /// gaps are left out where all that they still could add, at most |R| e^{-gap} each, is lost in the
+  /// rounding of every channel's sum.
   template <std::size_t N>
-  static void addJoins(Channels<N>& sum, const Walk<N>& fromA, const Walk<N>& fromB, double depth) {
-    double largestB = -std::numeric_limits<double>::infinity();
-    for (const Prefix<N>& b : fromB.prefixes) largestB = std::max(largestB, b.logLargest);
-    const double pairs =
-        static_cast<double>(fromA.prefixes.size()) * static_cast<double>(fromB.prefixes.size());
-    constexpr double kRounding = 0x1p-60, kNothingLeft = -800;  // of e^x in double
+  static void addJoins(Channels<N>& sum, const Walk<N>& fromA, Walk<N>& fromB, double depth) {
+    fromB.sumTails();
+    const auto rows = static_cast<double>(fromA.prefixes.size());
+    constexpr double kRounding = 0x1p-55, kNothingLeft = -800;  // of e^x in double
     Channels<N> size{};                                         // sums of absolute values
-    auto end = fromB.prefixes.end();
+    const auto begin = fromB.prefixes.cbegin();
+    auto end = fromB.prefixes.cend();
     for (const Prefix<N>& a : fromA.prefixes) {
-      while (end != fromB.prefixes.begin() && !(a.depth < depth - (end - 1)->depth)) --end;
+      while (end != begin && !(a.depth < depth - (end - 1)->depth)) --end;
+      if (end == begin) return;
       const double visible =
-          std::max(kNothingLeft, std::log(*std::min_element(size.begin(), size.end()) * kRounding / pairs));
-      const double widest = a.logLargest + largestB - visible;
-      for (auto b = end; b != fromB.prefixes.begin();) {
+          std::max(kNothingLeft, std::log(*std::min_element(size.begin(), size.end()) * kRounding / rows));
+      double gapExp = std::exp(depth - (end - 1)->depth - a.depth);
+      for (auto b = end; b != begin;) {
         --b;
         const double gap = depth - b->depth - a.depth;
-        if (gap > widest) break;
+        if (a.logLargest + b->logTail - gap < visible) break;
         const double others = 1 + a.gapSum + b->gapSum;
         for (std::size_t c = 0; c < N; ++c) {
           const double term =
-              scoreOf(a.weight[c] * b->weight[c], a.exponent[c] + b->exponent[c], others, gap);
+              scoreOf(a.weight[c] * b->weight[c], a.exponent[c] + b->exponent[c], others, gap, gapExp);
           addTerm(sum[c], term);
           addTerm(size[c], std::abs(term));
         }
+        gapExp *= b->gapExp;  // the next gap is wider by this one
       }
     }
   }
@@ -157,14 +176,16 @@ struct BidirectionalMis {
   template <std::size_t N>
   static void addRatio(Channels<N>& sum, const Prefix<N>& whole, double depth) {
     for (std::size_t c = 0; c < N; ++c) {
-      addTerm(sum[c], scoreOf(whole.weight[c], whole.exponent[c], 1 + whole.gapSum, depth - whole.depth));
+      const double gap = depth - whole.depth;
+      addTerm(sum[c], scoreOf(whole.weight[c], whole.exponent[c], 1 + whole.gapSum, gap, std::exp(gap)));
     }
   }
   /// mantissa 2^exponent / (others + e^gap), from the exponents' difference where a part has no double.
-  static double scoreOf(double mantissa, std::int64_t exponent, double others, double gap) {
+  /// gapExp: e^gap or, beyond the range of double, infinite.
+  static double scoreOf(double mantissa, std::int64_t exponent, double others, double gap, double gapExp) {
     constexpr double kLn2 = 0.69314718055994530942, kWideGap = 600;
     if (exponent == 0 && gap < kWideGap) [[likely]] {
-      return mantissa / (others + std::exp(gap));
+      return mantissa / (others + gapExp);
     }
     if (mantissa == 0) return 0;
     // others + e^gap = e^gap (1 + others e^-gap)
