@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 #include "base/vec.h"
 
@@ -10,6 +12,14 @@ namespace pbrtmedia {
 
 /// Why a sample was kept off the film.
 enum class DropCause { NotANumber, Infinite, Negative, kCount };
+
+/// A density above its bound, with the ray that found it.
+struct BoundViolation {
+  std::string_view medium;  ///< lives as long as the medium
+  Point3f o;                ///< the ray: o + t d, in the space where the medium was defined
+  Vector3f d;
+  double t = 0, density = 0, bound = 0;
+};
 
 /// Event counts of one thread or of a whole render. Every member is a plain sum, so totals do not depend on
 /// scheduling. Passed by reference down the call tree; there is no global counter.
@@ -27,6 +37,8 @@ struct RenderCounters {
   std::uint64_t mediumMismatches = 0;  ///< crossings where a boundary contradicts the ray's current medium
   std::uint64_t boundaryRepairs = 0;   ///< scatter points that rounding had put beyond their boundary
   std::array<std::uint64_t, static_cast<std::size_t>(DropCause::kCount)> dropped{};
+  /// The first violation since this was last emptied: an example, no count, and left out by `add`.
+  std::optional<BoundViolation> violation;
 
   std::uint64_t droppedTotal() const {
     std::uint64_t sum = 0;

@@ -24,9 +24,7 @@ float ConstantField::densityAt(Point3f world) const {
 }
 
 SuperVoxels ConstantField::superVoxels() const {
-  return SuperVoxels(LatticeShape{}, 1.0, localBox(), [this](std::int64_t, std::int64_t, std::int64_t) {
-    return SuperVoxel{density_, density_, density_};
-  });
+  return SuperVoxels({.box = localBox()}, SuperVoxel{density_, density_, density_});
 }
 
 std::string ConstantField::describe() const {

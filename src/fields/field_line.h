@@ -22,6 +22,12 @@ concept BatchedField = requires(const Field& field, const LocalLine& line, std::
   field.densities(line, s, out);
 };
 
+/// A field that can be cut where its density stops being smooth (PiecewiseCubicLine).
+template <class Field>
+concept PiecewiseCubicField = requires(const Field& field, const LocalLine& line, AnyIntervalVisitor visit) {
+  field.walkPieces(line, 0.0, 1.0, visit);
+};
+
 /// The part of a segment inside a field (fields/density_line.h), in the field's local space and restarted
 /// where it enters: s = t - tEntry(). So no number on it is larger than the field, however far away the
 /// segment begins. Borrows field and bounds.
@@ -70,6 +76,7 @@ class FieldLine {
     bounds_->walk(line_, length_, visit);
   }
   template <class Visit>
+  requires PiecewiseCubicField<Field>
   void walkPieces(Visit&& visit) const {
     bool more = true;
     bounds_->walk(line_, length_, [&](double sEnter, double sExit, const SuperVoxel& bound) {

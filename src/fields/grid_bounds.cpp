@@ -66,10 +66,9 @@ class AxisWeights {
 
 }  // namespace
 
-SuperVoxels gridBounds(const GridSamples& samples, int nx, int ny, int nz, int power) {
+SuperVoxels gridBounds(const GridSamples& samples, int nx, int ny, int nz, Vec3<std::int64_t> size) {
   // n + 1 gaps between the n + 2 samples of an axis, apron included.
-  const std::int64_t size = std::int64_t{1} << power;
-  const AxisWeights x(nx, size), y(ny, size), z(nz, size);
+  const AxisWeights x(nx, size.x), y(ny, size.y), z(nz, size.z);
   const LatticeShape shape{{x.cells(), y.cells(), z.cells()}};
   const Bounds3d box{{0.5, 0.5, 0.5}, {nx + 0.5, ny + 0.5, nz + 0.5}};
   const auto boundOf = [&](std::int64_t ci, std::int64_t cj, std::int64_t ck) {
@@ -90,7 +89,7 @@ SuperVoxels gridBounds(const GridSamples& samples, int nx, int ny, int nz, int p
     }
     return withRoundingSlack(lower, upper, mean);
   };
-  return SuperVoxels(shape, static_cast<double>(size), box, boundOf);
+  return SuperVoxels({shape, Vec3d(size), box}, boundOf);
 }
 
 }  // namespace pbrtmedia

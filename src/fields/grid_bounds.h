@@ -6,12 +6,12 @@
 
 namespace pbrtmedia {
 
-/// Bounds and mean of the interpolated density over cells of 2^power lattice gaps per axis, from lattice
-/// plane 0 on. `nx`, ...: samples per axis without the apron; the field's box is [1/2, n + 1/2].
+/// Bounds and mean of the interpolated density over cells of whole lattice gaps (`size` of them per axis),
+/// from lattice plane 0 on. `nx`, ...: samples per axis without the apron; the field's box is [1/2, n + 1/2].
 ///
 /// Bounds hold for look-ups, their rounding included. The mean is the exact average (up to its own rounding
 /// to float) of the trilinear interpolant over the part of the cell inside the box; it lies within the bounds
 /// and is 0 exactly where the upper one is.
-SuperVoxels gridBounds(const GridSamples& samples, int nx, int ny, int nz, int power);
+SuperVoxels gridBounds(const GridSamples& samples, int nx, int ny, int nz, Vec3<std::int64_t> size);
 
 }  // namespace pbrtmedia

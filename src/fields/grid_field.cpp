@@ -72,12 +72,28 @@ float GridField::densityAt(Point3f world) const {
 
 Bounds3d GridField::localBox() const { return {{0.5, 0.5, 0.5}, {n_[0] + 0.5, n_[1] + 0.5, n_[2] + 0.5}}; }
 
+SuperVoxelLattice GridField::lattice(const WantedCells& wanted) const {
+  SuperVoxelLattice lattice{.box = localBox()};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::int64_t gaps = n_[a] + std::int64_t{1};
+    const std::int64_t size = wanted ? gapsPerCell(gaps, (*wanted)[a]) : 1 << kDefaultSuperVoxelPower;
+    lattice.shape.count[a] = (gaps + size - 1) / size;
+    lattice.cellSize[a] = static_cast<double>(size);
+  }
+  return lattice;
+}
+
+SuperVoxels GridField::superVoxels(const SuperVoxelLattice& lattice) const {
+  return gridBounds(samples_, n_[0], n_[1], n_[2], Vec3<std::int64_t>(lattice.cellSize));
+}
+
 SuperVoxels GridField::superVoxels(int power) const {
   if (power < 0 || power > kMaxSuperVoxelPower) {
     refuse("a super-voxel spans 2^p samples, p from 0 to " + std::to_string(kMaxSuperVoxelPower) +
            "; found p = " + std::to_string(power));
   }
-  return gridBounds(samples_, n_[0], n_[1], n_[2], power);
+  const std::int64_t size = std::int64_t{1} << power;
+  return gridBounds(samples_, n_[0], n_[1], n_[2], {size, size, size});
 }
 
 std::string GridField::describe() const {

@@ -62,7 +62,11 @@ class GridField {
   const AffineMap& localFromWorld() const { return localFromWorld_; }
   const Transform& worldFromLocal() const { return worldFromLocal_; }
   Bounds3d localBox() const;
-  /// Bounds and means (fields/grid_bounds.h) with cells of 2^power samples per axis, 0 <= power <=
+  /// Cells of whole gaps between samples, by default of 2^kDefaultSuperVoxelPower per axis.
+  SuperVoxelLattice lattice(const WantedCells& wanted) const;
+  /// Bounds and means (fields/grid_bounds.h) for such a lattice.
+  SuperVoxels superVoxels(const SuperVoxelLattice& lattice) const;
+  /// The same with cells of 2^power samples per axis, 0 <= power <=
   /// kMaxSuperVoxelPower; throws SceneError beyond.
   SuperVoxels superVoxels(int power = kDefaultSuperVoxelPower) const;
   static constexpr int kDefaultSuperVoxelPower = 2, kMaxSuperVoxelPower = 10;

@@ -4,22 +4,35 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+
+#include "base/diagnostics.h"
 
 namespace pbrtmedia {
 namespace {
 
 constexpr float kUnseen = std::numeric_limits<float>::infinity();
 
+const LearnedBounds::Params& checked(const LearnedBounds::Params& p) {
+  const auto require = [](bool holds, const char* what, float found) {
+    if (holds) return;
+    throw SceneError(SourceLocation{},
+                     std::string("learned bounds: ") + what + "; found " + std::to_string(found));
+  };
+  require(p.initial > 0 && std::isfinite(p.initial), "the first bound must be a number above 0", p.initial);
+  require(p.epsilon > 0 && std::isfinite(p.epsilon), "epsilon must be a number above 0", p.epsilon);
+  require(p.slack >= 0 && std::isfinite(p.slack), "the slack must be a number of at least 0", p.slack);
+  return p;
+}
+
 }  // namespace
 
-LearnedBounds::LearnedBounds(const SuperVoxels& cells, const Params& params)
-    : params_(params),
-      inForce_(cells.shape(), cells.cellSize(), cells.box(),
-               [&](std::int64_t, std::int64_t, std::int64_t) {
-                 return SuperVoxel{params.initial, 0, SuperVoxel::kUnknownMean};
-               }),
+LearnedBounds::LearnedBounds(const SuperVoxelLattice& cells, const Params& params)
+    : params_(checked(params)),
+      inForce_(cells, SuperVoxel{params.initial, 0, SuperVoxel::kUnknownMean}),
       most_(std::make_unique<std::atomic<float>[]>(inForce_.storedCells())),
-      least_(std::make_unique<std::atomic<float>[]>(inForce_.storedCells())) {
+      least_(std::make_unique<std::atomic<float>[]>(inForce_.storedCells())),
+      cut_(std::make_unique<std::atomic<std::uint32_t>[]>(inForce_.storedCells())) {
   for (std::size_t i = 0; i < inForce_.storedCells(); ++i) {
     most_[i].store(params.initial, std::memory_order_relaxed);
     least_[i].store(kUnseen, std::memory_order_relaxed);
@@ -30,11 +43,13 @@ LearnedBounds::LearnedBounds(const SuperVoxels& cells, const Params& params)
 
 void LearnedBounds::publish() {
   progress_.raised = progress_.visited = 0;
+  progress_.cut = 0;
   inForce_.update([&](std::size_t cell, const SuperVoxel& old) {
     const float upper = most_[cell].load(std::memory_order_relaxed);
     const float least = least_[cell].load(std::memory_order_relaxed);
     progress_.raised += upper > old.upper;
     progress_.visited += least < kUnseen;
+    progress_.cut += cut_[cell].exchange(0, std::memory_order_relaxed);
     const float lower = least < kUnseen ? std::max(0.0f, least - params_.epsilon) : 0.0f;
     return SuperVoxel{std::max(upper, old.upper), lower, SuperVoxel::kUnknownMean};
   });

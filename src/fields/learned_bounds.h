@@ -18,6 +18,7 @@ struct LearningProgress {
   std::size_t cells = 0;
   std::size_t raised = 0;   ///< by the last publication
   std::size_t visited = 0;  ///< ever looked up in
+  std::uint64_t cut = 0;    ///< look-ups of the last pass that found more than their bound and its slack
   float maximum = 0;        ///< largest bound
 };
 
@@ -40,9 +41,10 @@ class LearnedBounds {
     float slack = 0;        ///< >= 0
   };
 
-  /// `cells` gives the lattice, in local units of the field; its own bounds are not used.
-  LearnedBounds(const SuperVoxels& cells, const Params& params);
+  /// Throws SceneError (location unknown) when a parameter is out of range.
+  LearnedBounds(const SuperVoxelLattice& cells, const Params& params);
 
+  const Params& params() const { return params_; }
   /// The bounds in force.
   const SuperVoxels& inForce() const { return inForce_; }
   /// The density that trackers see at a local point: cut to the bound. Notes what was found. Thread-safe.
@@ -51,11 +53,16 @@ class LearnedBounds {
     const float bound = inForce_.upperOf(cell);
     propose(cell, density);
     const float limit = bound * (1 + params_.slack);
-    return density < limit ? density : limit;
+    if (!(density > limit)) return density;
+    cut_[cell].fetch_add(1, std::memory_order_relaxed);
+    return limit;
   }
   /// Puts what was proposed into force. Not thread-safe.
   void publish();
   LearningProgress progress() const { return progress_; }
+  std::size_t bytesOfProposals() const {
+    return inForce_.storedCells() * (2 * sizeof(float) + sizeof(std::uint32_t));
+  }
 
   /// The bounds in force as numbers, cell by cell, x fastest: upper then lower; for a cache.
   std::vector<float> save() const;
@@ -78,6 +85,8 @@ class LearnedBounds {
   Params params_;
   SuperVoxels inForce_;
   std::unique_ptr<std::atomic<float>[]> most_, least_;  ///< proposals, one per stored cell
+  /// Look-ups cut in this pass. One counter a cell, as threads would queue for a common one.
+  std::unique_ptr<std::atomic<std::uint32_t>[]> cut_;
   LearningProgress progress_;
 };
 

@@ -76,7 +76,11 @@ float NanoVdbField::densityAt(Vec3d world) const {
   return box_.contains(p) ? density(p) : 0;
 }
 
-SuperVoxels NanoVdbField::superVoxels() const {
+SuperVoxelLattice NanoVdbField::lattice(const WantedCells& wanted) const {
+  if (wanted) {
+    return latticeOf({gapsPerCell(gaps_.x, (*wanted)[0]), gapsPerCell(gaps_.y, (*wanted)[1]),
+                      gapsPerCell(gaps_.z, (*wanted)[2])});
+  }
   const auto cells = [&](int power) {
     double count = 1;
     for (std::size_t a = 0; a < 3; ++a) count *= std::ceil(std::ldexp(static_cast<double>(gaps_[a]), -power));
@@ -84,7 +88,16 @@ SuperVoxels NanoVdbField::superVoxels() const {
   };
   int power = kFinestSuperVoxelPower;
   while (power < kMaxSuperVoxelPower && cells(power) > static_cast<double>(kMaxSuperVoxels)) ++power;
-  return superVoxels(power);
+  const std::int64_t size = std::int64_t{1} << power;
+  return latticeOf({size, size, size});
+}
+
+SuperVoxelLattice NanoVdbField::latticeOf(const Vec3<std::int64_t>& voxelsPerCell) const {
+  SuperVoxelLattice lattice{.cellSize = Vec3d(voxelsPerCell), .box = box_};
+  for (std::size_t a = 0; a < 3; ++a) {
+    lattice.shape.count[a] = (gaps_[a] + voxelsPerCell[a] - 1) / voxelsPerCell[a];
+  }
+  return lattice;
 }
 
 SuperVoxels NanoVdbField::superVoxels(int power) const {
@@ -93,8 +106,11 @@ SuperVoxels NanoVdbField::superVoxels(int power) const {
            "; found p = " + std::to_string(power));
   }
   const std::int64_t size = std::int64_t{1} << power;
-  LatticeShape shape;
-  for (std::size_t a = 0; a < 3; ++a) shape.count[a] = (gaps_[a] + size - 1) >> power;
+  return superVoxels(latticeOf({size, size, size}));
+}
+
+SuperVoxels NanoVdbField::superVoxels(const SuperVoxelLattice& lattice) const {
+  const Vec3<std::int64_t> size(lattice.cellSize);
   const Vec3<std::int64_t> boxMin(static_cast<std::int64_t>(box_.min.x),
                                   static_cast<std::int64_t>(box_.min.y),
                                   static_cast<std::int64_t>(box_.min.z));
@@ -103,15 +119,15 @@ SuperVoxels NanoVdbField::superVoxels(int power) const {
     const Vec3<std::int64_t> cell(i, j, k);
     BrickTree::Corner lo, hi;
     for (std::size_t a = 0; a < 3; ++a) {
-      const std::int64_t first = std::max(cell[a] * size, boxMin[a]);
-      const std::int64_t last = std::min((cell[a] + 1) * size, gaps_[a]);
+      const std::int64_t first = std::max(cell[a] * size[a], boxMin[a]);
+      const std::int64_t last = std::min((cell[a] + 1) * size[a], gaps_[a]);
       if (first > last) return {0, 0, 0};  // outside the box
       lo[a] = static_cast<std::uint64_t>(first + shift_[a]);
       hi[a] = static_cast<std::uint64_t>(last + shift_[a]);
     }
     return boundOf(tree_.summary(lo, hi));
   };
-  return SuperVoxels(shape, static_cast<double>(size), box_, boundOfCell);
+  return SuperVoxels(lattice, boundOfCell);
 }
 
 std::string NanoVdbField::describe() const {

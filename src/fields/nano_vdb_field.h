@@ -67,11 +67,15 @@ class NanoVdbField {
   Vec3<std::int64_t> activeMin() const { return activeMin_; }
   Vec3<std::int64_t> activeMax() const { return activeMax_; }
 
+  /// Cells of whole voxels, by default of 2^power per axis with the smallest power from
+  /// kFinestSuperVoxelPower on that gives at most kMaxSuperVoxels cells.
+  SuperVoxelLattice lattice(const WantedCells& wanted) const;
+  /// Bounds for such a lattice. Their cost follows the stored bricks and the number of cells.
+  SuperVoxels superVoxels(const SuperVoxelLattice& lattice) const;
   /// Bounds with cells of 2^power voxels per axis, 0 <= power <= kMaxSuperVoxelPower; throws SceneError
-  /// beyond. Their cost follows the stored bricks and the number of cells.
+  /// beyond.
   SuperVoxels superVoxels(int power) const;
-  /// With the smallest power from kFinestSuperVoxelPower on that gives at most kMaxSuperVoxels cells.
-  SuperVoxels superVoxels() const;
+  SuperVoxels superVoxels() const { return superVoxels(lattice({})); }
   static constexpr int kFinestSuperVoxelPower = 3, kMaxSuperVoxelPower = 13;
   static constexpr std::int64_t kMaxSuperVoxels = std::int64_t{1} << 22;  ///< 48 MiB
 
@@ -89,6 +93,8 @@ class NanoVdbField {
   std::size_t bytes() const { return tree_.bytes(); }
 
  private:
+  SuperVoxelLattice latticeOf(const Vec3<std::int64_t>& voxelsPerCell) const;
+
   std::string name_, type_;
   bool isEmpty_;
   BrickTree tree_;

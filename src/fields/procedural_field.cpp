@@ -22,9 +22,7 @@ float below(double v) {
 
 }  // namespace
 
-template <bool kProven>
-ProceduralField<kProven>::ProceduralField(const Params& params, const Transform& worldFromMedium)
-    : params_(params) {
+ProceduralField::ProceduralField(const Params& params, const Transform& worldFromMedium) : params_(params) {
   for (const int n : params.cells) {
     if (n < 1 || n > 1024) {
       throw SceneError(SourceLocation{},
@@ -43,41 +41,46 @@ ProceduralField<kProven>::ProceduralField(const Params& params, const Transform&
   mediumFromLocal_.t = p0;
 }
 
-template <bool kProven>
-float ProceduralField<kProven>::densityAt(Point3f world) const {
+float ProceduralField::densityAt(Point3f world) const {
   const Vec3d local = localFromWorld_.point(Vec3d(world));
   return localBox().contains(local) ? density(local) : 0;
 }
 
-template <bool kProven>
-Bounds3d ProceduralField<kProven>::localBox() const {
+Bounds3d ProceduralField::localBox() const {
   return {{0, 0, 0},
           {static_cast<double>(params_.cells[0]), static_cast<double>(params_.cells[1]),
            static_cast<double>(params_.cells[2])}};
 }
 
-template <bool kProven>
-LatticeShape ProceduralField<kProven>::lattice() const {
-  return {{params_.cells[0], params_.cells[1], params_.cells[2]}};
+SuperVoxelLattice ProceduralField::lattice(const WantedCells& wanted) const {
+  SuperVoxelLattice lattice{.box = localBox()};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int count = wanted ? std::max(1, (*wanted)[a]) : params_.cells[a];
+    lattice.shape.count[a] = count;
+    lattice.cellSize[a] = static_cast<double>(params_.cells[a]) / count;
+  }
+  return lattice;
 }
 
-template <bool kProven>
-std::optional<SuperVoxels> ProceduralField<kProven>::superVoxels() const {
+std::optional<SuperVoxels> ProceduralField::superVoxels(const SuperVoxelLattice& lattice) const {
   if (!params_.function->range({mediumFromLocal_.point({0, 0, 0}), mediumFromLocal_.point({0, 0, 0})})) {
     return std::nullopt;
   }
   constexpr int kParts = 1 << kHalvings;
-  return SuperVoxels(lattice(), 1.0, localBox(), [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+  const Vec3d size = lattice.cellSize;
+  return SuperVoxels(lattice, [&](std::int64_t i, std::int64_t j, std::int64_t k) {
     double lower = std::numeric_limits<double>::infinity(), upper = 0, middle = 0;
     for (int part = 0; part < kParts * kParts * kParts; ++part) {
       const int x = part % kParts, y = part / kParts % kParts, z = part / (kParts * kParts);
-      const Vec3d corner = Vec3d(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) +
-                           Vec3d(x, y, z) * (1. / kParts);
+      const auto at = [&](Vec3d p) {
+        return Vec3d((static_cast<double>(i) + p.x / kParts) * size.x,
+                     (static_cast<double>(j) + p.y / kParts) * size.y,
+                     (static_cast<double>(k) + p.z / kParts) * size.z);
+      };
       // Points of a line may lie a rounding outside of their cell.
-      constexpr double kHair = 1e-9;
-      const Vec3d a = mediumFromLocal_.point(corner - Vec3d(kHair, kHair, kHair)),
-                  b = mediumFromLocal_.point(
-                      corner + Vec3d(1. / kParts + kHair, 1. / kParts + kHair, 1. / kParts + kHair));
+      const Vec3d hair = size * 1e-9;
+      const Vec3d a = mediumFromLocal_.point(at(Vec3d(x, y, z)) - hair),
+                  b = mediumFromLocal_.point(at(Vec3d(x + 1, y + 1, z + 1)) + hair);
       const Interval range = *params_.function->range({min(a, b), max(a, b)});
       lower = std::min(lower, range.lo);
       upper = std::max(upper, range.hi);
@@ -87,19 +90,6 @@ std::optional<SuperVoxels> ProceduralField<kProven>::superVoxels() const {
   });
 }
 
-template <bool kProven>
-SuperVoxels ProceduralField<kProven>::constantBounds(float upper) const {
-  return SuperVoxels(lattice(), 1.0, localBox(), [&](std::int64_t, std::int64_t, std::int64_t) {
-    return SuperVoxel{upper, 0, SuperVoxel::kUnknownMean};
-  });
-}
-
-template <bool kProven>
-std::string ProceduralField<kProven>::describe() const {
-  return params_.function->describe();
-}
-
-template class ProceduralField<true>;
-template class ProceduralField<false>;
+std::string ProceduralField::describe() const { return params_.function->describe(); }
 
 }  // namespace pbrtmedia

@@ -17,9 +17,7 @@
 namespace pbrtmedia {
 
 /// A density function inside a box; 0 outside. Local space is the lattice of its super-voxels: `cells` of
-/// them per axis, each a unit cube. `kProven`: the bounds come from the function's own ranges; otherwise they
-/// are somebody's word, and a bound of 0 is worth a probe.
-template <bool kProven>
+/// them per axis by default, each a unit cube.
 class ProceduralField {
  public:
   struct Params {
@@ -29,7 +27,7 @@ class ProceduralField {
     std::string_view typeName = "procedural";
   };
   static constexpr std::string_view kTypeName = "procedural";
-  static constexpr bool kProvenBounds = kProven;
+  static constexpr bool kProvenBounds = true;
 
   /// Throws SceneError (location unknown) when a parameter is out of range.
   ProceduralField(const Params& params, const Transform& worldFromMedium);
@@ -42,25 +40,21 @@ class ProceduralField {
   const AffineMap& localFromWorld() const { return localFromWorld_; }
   const Transform& worldFromLocal() const { return worldFromLocal_; }
   Bounds3d localBox() const;
+  /// By default Params::cells per axis.
+  SuperVoxelLattice lattice(const WantedCells& wanted) const;
   /// From the ranges of the function, one per cell, halved `kHalvings` times along each axis so that their
   /// first-order slack shrinks. Nothing when the function knows no ranges. The mean is the middle of the
   /// parts' ranges, no exact one.
-  std::optional<SuperVoxels> superVoxels() const;
+  std::optional<SuperVoxels> superVoxels(const SuperVoxelLattice& lattice) const;
+  std::optional<SuperVoxels> superVoxels() const { return superVoxels(lattice({})); }
   static constexpr int kHalvings = 1;
-  /// One bound for every cell: `upper` >= 0 by somebody's word, nothing below 0.
-  SuperVoxels constantBounds(float upper) const;
   std::string describe() const;
   std::size_t bytes() const { return 0; }
 
  private:
-  LatticeShape lattice() const;
-
   Params params_;
   Transform worldFromLocal_;
   AffineMap localFromWorld_, mediumFromLocal_;
 };
-
-extern template class ProceduralField<true>;
-extern template class ProceduralField<false>;
 
 }  // namespace pbrtmedia

@@ -37,9 +37,11 @@ Occupancy occupancyOf(const LatticeShape& shape, const Cells& cells) {
 
 }  // namespace
 
-SuperVoxels::SuperVoxels(const LatticeShape& shape, double cellSize, const Bounds3d& box,
+SuperVoxels::SuperVoxels(const SuperVoxelLattice& lattice,
                          const std::function<SuperVoxel(std::int64_t, std::int64_t, std::int64_t)>& boundOf)
-    : shape_(shape), cellSize_(cellSize), inverseCellSize_(1 / cellSize), box_(box) {
+    : lattice_(lattice),
+      inverseCellSize_(1 / lattice.cellSize.x, 1 / lattice.cellSize.y, 1 / lattice.cellSize.z) {
+  const LatticeShape& shape = lattice.shape;
   bounds_.resize(static_cast<std::size_t>(shape.stored()));
   means_.resize(bounds_.size());
   parallelFor(static_cast<std::size_t>(shape.count.y * shape.count.z), [&](std::size_t row) {
@@ -55,11 +57,15 @@ SuperVoxels::SuperVoxels(const LatticeShape& shape, double cellSize, const Bound
   survey();
 }
 
+SuperVoxels::SuperVoxels(const SuperVoxelLattice& lattice, const SuperVoxel& bound)
+    : SuperVoxels(lattice, [&](std::int64_t, std::int64_t, std::int64_t) { return bound; }) {}
+
 void SuperVoxels::update(const std::function<SuperVoxel(std::size_t, const SuperVoxel&)>& newCell) {
-  for (std::int64_t k = 0; k < shape_.count.z; ++k) {
-    for (std::int64_t j = 0; j < shape_.count.y; ++j) {
-      for (std::int64_t i = 0; i < shape_.count.x; ++i) {
-        const auto index = static_cast<std::size_t>(shape_.index(i, j, k));
+  const LatticeShape& shape = lattice_.shape;
+  for (std::int64_t k = 0; k < shape.count.z; ++k) {
+    for (std::int64_t j = 0; j < shape.count.y; ++j) {
+      for (std::int64_t i = 0; i < shape.count.x; ++i) {
+        const auto index = static_cast<std::size_t>(shape.index(i, j, k));
         const SuperVoxel next = newCell(index, cell(index));
         bounds_[index] = {next.upper, next.lower};
         means_[index] = next.mean;
@@ -72,12 +78,13 @@ void SuperVoxels::update(const std::function<SuperVoxel(std::size_t, const Super
 void SuperVoxels::survey() {
   maximum_ = 0;
   for (const Bound& bound : bounds_) maximum_ = std::max(maximum_, bound.upper);
-  const Occupancy occupancy = occupancyOf(shape_, bounds_);
+  const Occupancy occupancy = occupancyOf(lattice_.shape, bounds_);
   emptyCells_ = occupancy.empty;
   occupied_ = {};
   if (!occupancy.any) return;
-  occupied_.min = max(box_.min, Vec3d(occupancy.first) * cellSize_);
-  occupied_.max = min(box_.max, Vec3d(occupancy.last + Vec3<std::int64_t>(1, 1, 1)) * cellSize_);
+  occupied_.min = max(lattice_.box.min, scaled(Vec3d(occupancy.first), lattice_.cellSize));
+  occupied_.max =
+      min(lattice_.box.max, scaled(Vec3d(occupancy.last + Vec3<std::int64_t>(1, 1, 1)), lattice_.cellSize));
 }
 
 }  // namespace pbrtmedia

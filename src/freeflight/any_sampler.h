@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -37,14 +38,17 @@ SamplerTraits traitsOf(const AnySampler& sampler);
 std::vector<ParameterDescription> parametersOf(const AnySampler& sampler);
 AssignResult setParameter(AnySampler& sampler, std::string_view name, const ParameterValue& value);
 
-/// A flight by any sampler, which is asked with the albedo if it wants it.
+/// A flight by any sampler, which is asked with the albedo if it wants it. One whose traits say needsPieces
+/// must not be asked on a line without: std::logic_error.
 template <class Sampler, class Line, std::size_t N>
 FlightSample<N> fly(const Sampler& sampler, const Line& line, const Channels<N>& sigmaT,
                     const Channels<N>& albedo, Rng& rng) {
   if constexpr (requires { sampler(line, sigmaT, albedo, rng); }) {
     return sampler(line, sigmaT, albedo, rng);
-  } else {
+  } else if constexpr (requires { sampler(line, sigmaT, rng); }) {
     return sampler(line, sigmaT, rng);
+  } else {
+    throw std::logic_error("this sampler needs a line in cubic pieces");
   }
 }
 

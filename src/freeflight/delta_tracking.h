@@ -40,7 +40,7 @@ struct DeltaTracking {
     return flyWithNullCollisions<Line, N>(
         line, sigmaT, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
           const double upper = bound.upper, u = rng.uniformDouble();
-          if constexpr (N == 1) {
+          if constexpr (N == 1 && Line::kProvenBounds) {
             if (u * upper < bound.lower) return Collision::Real;
           }
           const double density = std::min(lookUpAt(line, s, bound, flight), upper);

@@ -58,7 +58,7 @@ double lookUpAt(const Line& line, double s, const SuperVoxel& bound, FlightSampl
   const float density = line.density(s);
   ++flight.tally.lookups;
   if (density > bound.upper)
-    flight.tally.noteViolation(static_cast<double>(density), static_cast<double>(bound.upper));
+    flight.tally.noteViolation(s, static_cast<double>(density), static_cast<double>(bound.upper));
   return static_cast<double>(density);
 }
 

@@ -15,6 +15,7 @@ struct SamplerTraits {
   EstimatorTraits::Bias bias = EstimatorTraits::Bias::Unbiased;
   std::string_view biasNote = "";  ///< when and how large; empty: nothing to add
   EstimatorTraits::Control control = EstimatorTraits::Control::Any;
+  bool needsPieces = false;  ///< asks for a PiecewiseCubicLine (fields/density_line.h)
   bool unitWeights = false;  ///< one channel, under a bounding control: every weight is exactly 1
 };
 

@@ -47,7 +47,9 @@ struct WeightedDeltaTracking {
     const auto rateOf = [](const SuperVoxel& bound) { return static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
         line, sigmaT, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
-          const double upper = bound.upper, lower = bound.lower, u = rng.uniformDouble();
+          // A collision that is real for certain needs proof.
+          const double upper = bound.upper, lower = Line::kProvenBounds ? bound.lower : 0.0f;
+          const double u = rng.uniformDouble();
           if constexpr (N == 1) {
             if (u * upper < lower) return Collision::Real;
           }

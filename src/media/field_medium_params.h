@@ -2,8 +2,10 @@
 #pragma once
 
 #include "freeflight/any_sampler.h"
+#include "media/bounds_params.h"
 #include "media/medium_params.h"
 #include "transmittance/any_estimator.h"
+#include "transmittance/sampling_pattern.h"
 
 namespace pbrtmedia {
 
@@ -12,6 +14,8 @@ namespace pbrtmedia {
 struct FieldMediumParams : MediumParams {
   AnyEstimator estimator = RatioTracking{.rouletteThreshold = 0.1};
   AnySampler sampler;
+  PatternKind pattern = PatternKind::Independent;  ///< across the estimates of one pixel
+  BoundsParams bounds;
 };
 
 }  // namespace pbrtmedia

@@ -12,7 +12,7 @@ template <DensityLine Line>
 double boundedLookup(const Line& line, double s, double upper, LookupTally& tally) {
   const double density = line.density(s);
   ++tally.lookups;
-  if (density > upper) tally.noteViolation(density, upper);
+  if (density > upper) tally.noteViolation(s, density, upper);
   return density;
 }
 

@@ -172,7 +172,7 @@ class CombIntegrator {
     for (std::size_t i = 0; i < s.size(); ++i) {
       const double bound = pieceAt(s[i]).upper;
       if (static_cast<double>(density[i]) > bound) {
-        tally_.noteViolation(static_cast<double>(density[i]), bound);
+        tally_.noteViolation(s[i], static_cast<double>(density[i]), bound);
       }
     }
   }

@@ -34,10 +34,16 @@ struct LookupTally {
   std::uint64_t violations = 0;      ///< look-ups that found a density above its bound
   std::uint64_t capped = 0;          ///< estimates that a limit on look-ups cut short
   double worstRatio = 0;             ///< largest density / bound among them; infinite for a bound of 0
+  double worstS = 0, worstDensity = 0, worstBound = 0;  ///< where on the line that was, and both numbers
 
-  void noteViolation(double density, double bound) {
+  void noteViolation(double s, double density, double bound) {
     ++violations;
-    worstRatio = std::max(worstRatio, bound > 0 ? density / bound : std::numeric_limits<double>::infinity());
+    const double ratio = bound > 0 ? density / bound : std::numeric_limits<double>::infinity();
+    if (violations > 1 && !(ratio > worstRatio)) return;
+    worstRatio = ratio;
+    worstS = s;
+    worstDensity = density;
+    worstBound = bound;
   }
   void addTo(RenderCounters& counters) const {
     counters.densityLookups += lookups;

@@ -25,6 +25,7 @@ EstimatorTraits Gamma::traits() const {
       .finiteVarianceUnbounded =
           finite && of.finiteVarianceUnbounded && of.control == EstimatorTraits::Control::Unused,
       .boundedCost = of.boundedCost,
+      .needsPieces = of.needsPieces,
       .laws = LawSet::pinkNoise()};
 }
 

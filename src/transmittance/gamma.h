@@ -10,6 +10,7 @@
 #include "fields/density_line.h"
 #include "transmittance/any_exponential_estimator.h"
 #include "transmittance/estimate.h"
+#include "transmittance/estimate_on.h"
 #include "transmittance/gamma_variate.h"
 #include "transmittance/law.h"
 #include "transmittance/parameters.h"
@@ -45,7 +46,8 @@ struct Gamma {
     const double gamma = drawScale(stream);
     Channels<N> scaled;
     for (std::size_t c = 0; c < N; ++c) scaled[c] = sigmaT[c] * gamma;
-    return std::visit([&](const auto& estimator) { return estimator(line, scaled, stream); }, base);
+    return std::visit([&](const auto& estimator) { return estimateOn(estimator, line, scaled, stream); },
+                      base);
   }
 
  private:

@@ -11,9 +11,9 @@ namespace pbrtmedia {
 /// changes no estimate: without a majorant there is no process to weigh.
 template <DensityLine Line>
 void probeEmpty(const Line& line, double sEnter, double sExit, Rng& rng, LookupTally& tally) {
-  const double density = line.density(sEnter + (sExit - sEnter) * rng.uniformDouble());
+  const double s = sEnter + (sExit - sEnter) * rng.uniformDouble(), density = line.density(s);
   ++tally.lookups;
-  if (density > 0) tally.noteViolation(density, 0);
+  if (density > 0) tally.noteViolation(s, density, 0);
 }
 
 }  // namespace pbrtmedia

@@ -81,7 +81,7 @@ struct RatioTracking {
         const float density = line.density(s);
         ++tally.lookups;
         ++tally.nullCollisions;
-        if (density > bound.upper) tally.noteViolation(density, bound.upper);
+        if (density > bound.upper) tally.noteViolation(s, density, bound.upper);
         const double ratio = static_cast<double>(density) * inverseUpper;
         for (std::size_t c = 0; c < N; ++c) weight[c] *= 1 - share[c] * ratio;
         if (!survives(weight, stream)) return false;

@@ -33,6 +33,7 @@ struct RegularTracking {
             .useWhen = "truth is wanted, or the line crosses few voxels",
             .control = EstimatorTraits::Control::Unused,
             .boundedCost = true,
+            .needsPieces = true,
             .laws = LawSet::all()};
   }
 

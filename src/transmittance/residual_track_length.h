@@ -68,7 +68,7 @@ struct ResidualTrackLength {
       walk.cross(sEnter, sExit, sigmaMax * excess, [&](double s) {
         if (limit.reached(tally)) return false;
         const double density = boundedLookup(line, s, upper, tally), u = stream.uniform();
-        if (density < lower) tally.noteViolation(density, lower);
+        if (density < lower) tally.noteViolation(s, density, lower);
         const double ratio = (density - lower) / excess;
         anyAlive = false;
         for (std::size_t c = 0; c < N; ++c) {

@@ -34,6 +34,7 @@ struct EstimatorTraits {
   bool finiteVariance = true;           ///< under a bounding control
   bool finiteVarianceUnbounded = true;  ///< under a control too low by any factor, on a finite line
   bool boundedCost = false;             ///< lookups of one estimate have an upper limit
+  bool needsPieces = false;             ///< asks for a PiecewiseCubicLine (fields/density_line.h)
   LawSet laws = LawSet::exponential();
 };
 

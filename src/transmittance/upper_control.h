@@ -41,7 +41,7 @@ class UpperControl {
     const BoundProfile::Place place = profile_.place(BoundProfile::Weight::Upper, depth / sigmaMax_);
     const double density = static_cast<double>(line_.density(place.s)), upper = place.piece->upper;
     ++tally_.lookups;
-    if (density > upper) tally_.noteViolation(density, upper);
+    if (density > upper) tally_.noteViolation(place.s, density, upper);
     Channels<N> ratio;
     for (std::size_t c = 0; c < N; ++c) ratio[c] = 1 - share_[c] * (density / upper);
     return ratio;

@@ -99,7 +99,7 @@ TEST(SuperVoxelMeans, AddUpToTheIntegralOfTheField) {
     const Bounds3d box = field.localBox();
     double sum = 0;
     eachCell(bounds, [&](Vec3<std::int64_t> cell, const SuperVoxel& bound) {
-      const double size = bounds.cellSize();
+      const double size = bounds.cellSize().x;
       const Vec3d low = Vec3d(cell) * size;
       const Vec3d d = min(box.max, low + Vec3d(size, size, size)) - max(box.min, low);
       sum += d.x * d.y * d.z * static_cast<double>(bound.mean);

@@ -9,18 +9,15 @@
 #include "base/rng.h"
 #include "fields/constant_field.h"
 #include "fields/field_line.h"
-#include "fields/progressive_field.h"
+#include "fields/unproven_field.h"
 
 namespace pbrtmedia {
 namespace {
 
 constexpr std::uint64_t kSeed = 20241126;
 
-SuperVoxels lattice(std::int64_t n) {
-  return SuperVoxels(LatticeShape{{n, n, n}}, 1.0, {{0, 0, 0}, Vec3d(1, 1, 1) * static_cast<double>(n)},
-                     [](std::int64_t, std::int64_t, std::int64_t) {
-                       return SuperVoxel{1, 0, 1};
-                     });
+SuperVoxelLattice lattice(std::int64_t n) {
+  return {LatticeShape{{n, n, n}}, {1, 1, 1}, {{0, 0, 0}, Vec3d(1, 1, 1) * static_cast<double>(n)}};
 }
 
 float density(Vec3d p) { return static_cast<float>(p.x * p.y + .1 * p.z); }
@@ -36,6 +33,7 @@ TEST(LearnedBounds, CutToTheBoundInForceAndRaiseItOnlyWhenPublished) {
   EXPECT_EQ(bounds.inForce().at(0, 0, 0).lower, 0.0f) << "the least density seen minus epsilon";
   EXPECT_EQ(bounds.inForce().at(1, 0, 0).upper, .5f);
   EXPECT_EQ(bounds.inForce().maximum(), 2.25f);
+  EXPECT_EQ(bounds.progress().cut, 2u);
   EXPECT_EQ(bounds.bounded({.5, .5, .5}, 2.0f), 2.0f);
   EXPECT_EQ(bounds.progress().passes, 1u);
   EXPECT_EQ(bounds.progress().raised, 1u);
@@ -113,20 +111,30 @@ TEST(LearnedBounds, StartWhereOthersStopped) {
   EXPECT_EQ(second.save(), first.save());
 }
 
-TEST(ProgressiveField, IsItsFieldCutToTheBounds) {
+TEST(UnprovenField, IsItsFieldCutToBoundsThatAreLearned) {
   ConstantField constant({.density = 3}, Transform());
-  ProgressiveField<ConstantField> field(constant, constant.superVoxels(), {.initial = .5f, .epsilon = .5f});
+  UnprovenField<ConstantField> field(constant, constant.superVoxels().lattice(),
+                                     {.initial = .5f, .epsilon = .5f});
   EXPECT_EQ(field.density({.5, .5, .5}), .5f);
-  field.learned().publish();
+  field.learned()->publish();
   EXPECT_EQ(field.density({.5, .5, .5}), 3.0f);
   const Segment through{{-1, .5f, .5f}, {1, 0, 0}, 0, 10};
-  const auto line =
-      FieldLine<ProgressiveField<ConstantField>>::clip(field, field.learned().inForce(), through);
+  const auto line = FieldLine<UnprovenField<ConstantField>>::clip(field, field.inForce(), through);
   ASSERT_TRUE(line);
   const std::vector<double> s{.1, .5, .9, .95, .99};
   std::vector<float> out(s.size());
   line->densities(s, out);
   EXPECT_EQ(out, std::vector<float>(5, 3.0f));
+}
+
+TEST(UnprovenField, IsItsFieldWhereBoundsAreGiven) {
+  ConstantField constant({.density = 3}, Transform());
+  UnprovenField<ConstantField> field(constant,
+                                     SuperVoxels(constant.superVoxels().lattice(), SuperVoxel{.5f, 0, -1}));
+  EXPECT_EQ(field.learned(), nullptr);
+  EXPECT_EQ(field.inForce().maximum(), .5f);
+  EXPECT_EQ(field.density({.5, .5, .5}), 3.0f);
+  static_assert(!PiecewiseCubicField<UnprovenField<ConstantField>> && PiecewiseCubicField<ConstantField>);
 }
 
 }  // namespace

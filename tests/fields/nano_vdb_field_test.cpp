@@ -181,7 +181,8 @@ TEST(NanoVdbField, OneVoxelIsATentWhoseIntegralIsItsValue) {
           double volume = 1;
           const Vec3<std::int64_t> cell(i, j, k);
           for (std::size_t a = 0; a < 3; ++a) {
-            const double lo = static_cast<double>(cell[a]) * bounds.cellSize(), hi = lo + bounds.cellSize();
+            const double lo = static_cast<double>(cell[a]) * bounds.cellSize().x,
+                         hi = lo + bounds.cellSize().x;
             volume *=
                 std::max(0.0, std::min(hi, field.localBox().max[a]) - std::max(lo, field.localBox().min[a]));
           }
@@ -294,7 +295,7 @@ TEST_P(NanoVdbBounds, HoldInEveryCellIncludingItsFaces) {
         bool outside = false;
         const Vec3<std::int64_t> cell(i, j, k);
         for (std::size_t a = 0; a < 3; ++a) {
-          outside |= static_cast<double>(cell[a] + 1) * bounds.cellSize() < field.localBox().min[a];
+          outside |= static_cast<double>(cell[a] + 1) * bounds.cellSize().x < field.localBox().min[a];
         }
         const SuperVoxel bound = bounds.at(i, j, k);
         if (outside) {
@@ -306,7 +307,7 @@ TEST_P(NanoVdbBounds, HoldInEveryCellIncludingItsFaces) {
         ASSERT_LE(bound.mean, bound.upper);
         ASSERT_EQ(bound.mean == 0, bound.upper == 0);
         for (std::int64_t point = 0; point < (power == 0 ? 200 : points); ++point) {
-          const float density = field.density(pointOfCell(rng, cell, bounds.cellSize(), field.localBox()));
+          const float density = field.density(pointOfCell(rng, cell, bounds.cellSize().x, field.localBox()));
           ASSERT_LE(density, bound.upper) << i << ' ' << j << ' ' << k;
           ASSERT_GE(density, bound.lower) << i << ' ' << j << ' ' << k;
         }

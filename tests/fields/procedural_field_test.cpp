@@ -13,10 +13,9 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20241127;
 
-ProceduralField<true> field(std::shared_ptr<const DensityFunction> function, Point3f p0, Point3f p1,
-                            const Transform& place = Transform()) {
-  return ProceduralField<true>({.function = std::move(function), .p0 = p0, .p1 = p1, .cells = {7, 5, 6}},
-                               place);
+ProceduralField field(std::shared_ptr<const DensityFunction> function, Point3f p0, Point3f p1,
+                      const Transform& place = Transform()) {
+  return ProceduralField({.function = std::move(function), .p0 = p0, .p1 = p1, .cells = {7, 5, 6}}, place);
 }
 
 TEST(ProceduralField, IsItsFunctionWhereverItIsPlaced) {
@@ -75,8 +74,8 @@ TEST(ProceduralField, EmptyCellsOfABallAreKnown) {
 TEST(ProceduralField, RefusesABadBoxOrLattice) {
   const std::shared_ptr<const DensityFunction> ramp = makeAnalyticDensity(Ramp{});
   EXPECT_THROW(field(ramp, {0, 0, 0}, {1, 0, 1}), SceneError);
-  EXPECT_THROW(ProceduralField<false>({.function = ramp, .cells = {0, 1, 1}}, Transform()), SceneError);
-  EXPECT_THROW(ProceduralField<false>({.function = ramp, .cells = {1, 1, 4096}}, Transform()), SceneError);
+  EXPECT_THROW(ProceduralField({.function = ramp, .cells = {0, 1, 1}}, Transform()), SceneError);
+  EXPECT_THROW(ProceduralField({.function = ramp, .cells = {1, 1, 4096}}, Transform()), SceneError);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST_P(SuperVoxelBounds, HoldInEveryCellIncludingItsFaces) {
         const SuperVoxel bound = bounds.at(i, j, k);
         for (int point = 0; point < 10000; ++point) {
           const float density =
-              field.density(pointOfCell(rng, {i, j, k}, bounds.cellSize(), field.localBox()));
+              field.density(pointOfCell(rng, {i, j, k}, bounds.cellSize().x, field.localBox()));
           ASSERT_LE(density, bound.upper) << i << ' ' << j << ' ' << k;
           ASSERT_GE(density, bound.lower) << i << ' ' << j << ' ' << k;
         }

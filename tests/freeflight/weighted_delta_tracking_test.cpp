@@ -58,8 +58,13 @@ TEST(WeightedDeltaTracking, DrawsDistancesFromTheExactDistribution) {
   }
 }
 
+/// The same with bounds that count as proven.
+struct ProvenLine : FunctionLine {
+  static constexpr bool kProvenBounds = true;
+};
+
 TEST(WeightedDeltaTracking, AsksForNoDensityWhereLowerAndUpperBoundAgree) {
-  const FunctionLine line{[](double) { return 2.0; }, {{1, {2, 2}}}};
+  const ProvenLine line{{[](double) { return 2.0; }, {{1, {2, 2}}}}};
   Rng rng(kSeed);
   std::vector<double> distances;
   for (int n = 0; n < 50000; ++n) {
@@ -70,6 +75,23 @@ TEST(WeightedDeltaTracking, AsksForNoDensityWhereLowerAndUpperBoundAgree) {
   }
   const auto ks = test::ksTest(distances, [](double s) { return std::expm1(-6 * s) / std::expm1(-6.0); });
   EXPECT_GT(ks.pValue(), test::kMinPValue) << ks;
+}
+
+TEST(WeightedDeltaTracking, DoesNotTrustALowerBoundThatNobodyProved) {
+  // The density is half of its lower bound: taken for certain, every second collision would be one too many.
+  const FunctionLine line{[](double) { return 1.0; }, {{1, {4, 2}}}};
+  Rng rng(kSeed);
+  for (const AnySampler& sampler : {AnySampler(WeightedDeltaTracking{}), AnySampler(DeltaTracking{}),
+                                    AnySampler(DecompositionTracking{})}) {
+    RunningStats passed;
+    for (int n = 0; n < 100000; ++n) {
+      const auto flight = std::visit(
+          [&](const auto& held) { return fly(held, line, Channels<1>{1}, Channels<1>{.5}, rng); }, sampler);
+      passed.add(flight.collided ? 0 : flight.weight[0]);
+    }
+    const auto test = zTest(passed, std::exp(-1.0), kSeed);
+    EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << nameOf(sampler) << test;
+  }
 }
 
 TEST(WeightedDeltaTracking, PassesVacuumAndClearMedia) {
