@@ -39,7 +39,7 @@ void addSelection(CLI::App* c, EstimatorSelection& o) {
                 "names, names with parameters (ray-marching:stepsize=0.1), or all (all)")
       ->delimiter(',')
       ->take_all();
-  c->add_option("--law", o.law, "transmittance law (exponential)");
+  c->add_option("--law", o.law, "transmittance law (each estimator's own, mostly exponential)");
   c->add_option("--param", o.params, "name=value of the law and of every estimator chosen");
 }
 
@@ -118,7 +118,7 @@ void addHeatmap(CLI::App& app, HeatmapOptions& o, const std::string& command, Ru
       "P.exr,\n"
       "P-variance.png, P-variance-lookups.png and P-variance-seconds.png. The best is chosen among the "
       "unbiased\n"
-      "estimators; choose estimators of one law.");
+      "estimators, which must serve one law; all: those of the exponential one, unless --law tells another.");
   addLabOptions(c, o.lab, command);
   addSelection(c, o.selection);
   c->add_option("--extinction", o.function, "function (cosine)");

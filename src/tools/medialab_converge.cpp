@@ -35,6 +35,16 @@ LogSlope slopeOver(const std::vector<Point>& curve, double (*abscissa)(const Poi
   return fitLogSlope(points);
 }
 
+/// The result in a line.
+std::string slopeNote(const std::string& estimator, const CanonicalFunction& function,
+                      const ProblemChoice& choice, const LogSlope& bySamples, const LogSlope& byLookups) {
+  const auto rounded = [](double x) { return formatNumber(std::round(1000 * x) / 1000); };
+  std::string text = estimator + " on " + function.about().name + ", depth " + formatNumber(choice.depth);
+  text += ", control " + formatNumber(choice.control) + ": rmse ~ samples^" + rounded(bySamples.slope);
+  text += " +- " + rounded(bySamples.error) + ", ~ look-ups^" + rounded(byLookups.slope) + " +- ";
+  return text + rounded(byLookups.error);
+}
+
 }  // namespace
 
 LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
@@ -87,6 +97,7 @@ LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
             slopeOver(curve, [](const Point& p) { return static_cast<double>(p.samples); });
         const LogSlope byLookups = slopeOver(curve, [](const Point& p) { return p.stats.lookupsPerTrial(); });
         const LogSlope bySeconds = slopeOver(curve, [](const Point& p) { return p.stats.secondsPerTrial(); });
+        table.note(slopeNote(estimator.label(), function, choice, bySamples, byLookups));
         for (const Point& p : curve) {
           const Moments& v = p.stats.value;
           std::vector<LabTable::Cell> row{estimator.label(),

@@ -108,6 +108,24 @@ void noteShares(LabTable& table, const Heatmap& map) {
   }
 }
 
+/// The estimators of a map, all under one law: a best one among values of different laws would mean nothing.
+/// "all" stands for those of the exponential law unless another is named.
+std::vector<LabEstimator> estimatorsOf(const HeatmapOptions& o, std::vector<LabTable::Skipped>& skipped) {
+  EstimatorSelection selection = o.selection;
+  if (selection.isAll() && selection.law.empty()) selection.law = "exponential";
+  std::vector<LabEstimator> estimators = selection.select(skipped);
+  for (const LabEstimator& one : estimators) {
+    const std::string_view first = nameOf(estimators.front().law()), law = nameOf(one.law());
+    if (law == first) continue;
+    std::string text = "a map compares estimators of one law: " + estimators.front().label() + " serves ";
+    text += first;
+    text += ", " + one.label() + ' ';
+    text += law;
+    throw std::runtime_error(text);
+  }
+  return estimators;
+}
+
 }  // namespace
 
 double Heatmap::Pixel::value(Measure measure) const {
@@ -159,7 +177,7 @@ Heatmap measureHeatmap(const HeatmapOptions& o, std::vector<LabTable::Skipped>& 
   if (o.trials == 1) throw std::runtime_error("--trials: expected at least 2, for a variance");
   const CanonicalFunction function = selectFunctions({o.function}).front();
   Heatmap map{o.width, o.height, o.topEfficiency > 0 ? o.topEfficiency : function.about().topEfficiency, {}};
-  const std::vector<LabEstimator> estimators = o.selection.select(skipped);
+  const std::vector<LabEstimator> estimators = estimatorsOf(o, skipped);
   LabProgress progress("medialab heatmap", estimators.size() * static_cast<std::size_t>(o.height),
                        o.lab.quiet);
   for (const LabEstimator& estimator : estimators) {

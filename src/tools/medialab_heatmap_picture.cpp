@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <utility>
 
 #include "tools/medialab_canvas.h"
@@ -16,7 +16,10 @@ using Measure = Heatmap::Measure;
 constexpr Rgb kInk{0.1f, 0.1f, 0.1f};
 constexpr int kPanel = 220;  ///< least width of a panel's map, pixels
 constexpr int kMargin = 14, kAxis = 40, kTitle = 24, kLegend = 300, kBar = 16;
-constexpr double kMostDecades = 12;  ///< below the largest value, the rest is as dark as the lowest
+/// The scale covers all values but these shares of the darkest and of the brightest, and no more decades: a
+/// few outliers would take the contrast from all maps.
+constexpr double kDarkShare = 0.02, kBrightShare = 0.002, kMostDecades = 8;
+constexpr int kMostColumns = 6;
 
 const char* titleOf(Measure measure) {
   switch (measure) {
@@ -30,24 +33,29 @@ const char* titleOf(Measure measure) {
   return "";
 }
 
-/// Powers of ten that hold every positive value.
+/// Powers of ten that hold the positive values but for outliers.
 struct Scale {
   double low = 0, high = 1;
+  bool isCutBelow = false, isCutAbove = false;
 
   explicit Scale(const Heatmap& map, Measure measure) {
-    double least = std::numeric_limits<double>::infinity(), most = 0;
+    std::vector<double> values;
     for (const Heatmap::Layer& layer : map.layers) {
       for (const Heatmap::Pixel& p : layer.pixels) {
         const double value = p.value(measure);
-        if (!(value > 0) || !std::isfinite(value)) continue;
-        least = std::min(least, value);
-        most = std::max(most, value);
+        if (value > 0 && std::isfinite(value)) values.push_back(std::log10(value));
       }
     }
-    if (!(most > 0)) return;
-    high = std::ceil(std::log10(most));
-    low = std::max(std::floor(std::log10(least)), high - kMostDecades);
+    if (values.empty()) return;
+    std::sort(values.begin(), values.end());
+    const auto beyond = [&](double share) {
+      return static_cast<std::size_t>(share * static_cast<double>(values.size()));
+    };
+    high = std::ceil(values[values.size() - 1 - beyond(kBrightShare)]);
+    low = std::max(std::floor(values[beyond(kDarkShare)]), high - kMostDecades);
     if (low == high) --low;
+    isCutBelow = values.front() < low;
+    isCutAbove = values.back() > high;
   }
   Rgb colour(double value) const {
     if (!std::isfinite(value)) return {1, 1, 1};
@@ -70,18 +78,19 @@ class Picture {
         dot_(std::max(1, (kPanel + std::max(map.width, map.height) - 1) / std::max(map.width, map.height))),
         panelWidth_(std::max(kPanel, map.width * dot_) + kAxis + kMargin),
         panelHeight_(map.height * dot_ + kTitle + kAxis),
-        columns_(std::min<int>(4, static_cast<int>(map.layers.size()) + 1)),
+        columns_(columnsOf(static_cast<int>(map.layers.size()) + 1)),
         canvas_(columns_ * panelWidth_ + kLegend, kTitle + rows() * panelHeight_ + kMargin) {
+    rankLayers();
     canvas_.text(kMargin, 6, std::string(titleOf(measure)) + ", " + function, kInk, 2);
+    panel(0, "best unbiased: see legend", [&](std::size_t i) {
+      const std::size_t best = map_.best(i, measure_);
+      return best == Heatmap::kNoBest ? Rgb{1, 1, 1} : categoricalColour(rank_[best]);
+    });
     for (std::size_t l = 0; l < map.layers.size(); ++l) {
       const Heatmap::Layer& layer = map.layers[l];
-      panel(l, layer.estimator,
+      panel(l + 1, layer.estimator,
             [&](std::size_t i) { return scale_.colour(layer.pixels[i].value(measure_)); });
     }
-    panel(map.layers.size(), "best", [&](std::size_t i) {
-      const std::size_t best = map_.best(i, measure_);
-      return best == Heatmap::kNoBest ? Rgb{1, 1, 1} : categoricalColour(best);
-    });
     bar();
     legend();
   }
@@ -89,6 +98,32 @@ class Picture {
 
  private:
   int rows() const { return (static_cast<int>(map_.layers.size()) + columns_) / columns_; }
+  /// A little wider than high.
+  static int columnsOf(int panels) {
+    return std::min({panels, kMostColumns, 1 + static_cast<int>(std::sqrt(1.5 * panels))});
+  }
+  /// How often each layer is best.
+  std::vector<std::size_t> countBest(Measure measure) const {
+    std::vector<std::size_t> counts(map_.layers.size());
+    const std::size_t pixels = static_cast<std::size_t>(map_.width) * static_cast<std::size_t>(map_.height);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (const std::size_t best = map_.best(i, measure); best != Heatmap::kNoBest) ++counts[best];
+    }
+    return counts;
+  }
+  /// Colours are dealt to the layers that are best most often: the first few differ most. The same in all
+  /// pictures of a map, and not by measured times.
+  void rankLayers() {
+    std::vector<std::size_t> counts = countBest(Measure::Variance);
+    const std::vector<std::size_t> more = countBest(Measure::VarianceLookups);
+    for (std::size_t l = 0; l < counts.size(); ++l) counts[l] += more[l];
+    std::vector<std::size_t> order(counts.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return counts[a] > counts[b]; });
+    rank_.resize(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) rank_[order[i]] = i;
+  }
 
   template <class Colour>
   void panel(std::size_t number, const std::string& title, const Colour& colour) {
@@ -114,7 +149,7 @@ class Picture {
   }
   void bar() {
     const int x0 = columns_ * panelWidth_ + kMargin, y0 = 2 * kTitle, height = 240;
-    canvas_.text(x0, y0 - 12, "scale, powers of ten", kInk);
+    canvas_.text(x0, y0 - 18, "scale, powers of ten", kInk);
     for (int y = 0; y < height; ++y) {
       canvas_.fill(x0, y0 + y, kBar, 1, sequentialColour(1 - (y + 0.5) / height));
     }
@@ -123,7 +158,10 @@ class Picture {
       const int y =
           y0 + static_cast<int>(std::lround((scale_.high - decade) / (scale_.high - scale_.low) * height));
       canvas_.fill(x0 + kBar, y, 4, 1, kInk);
-      canvas_.text(x0 + kBar + 8, y - 3, "1e" + formatNumber(decade), kInk);
+      std::string label = "1e" + formatNumber(decade);
+      if (decade == scale_.low && scale_.isCutBelow) label += " and less";
+      if (decade == scale_.high && scale_.isCutAbove) label += " and more";
+      canvas_.text(x0 + kBar + 8, y - 3, label, kInk);
     }
     canvas_.fill(x0, y0 + height + 14, kBar, 10, {0, 0, 0});
     canvas_.text(x0 + kBar + 8, y0 + height + 15, "0", kInk);
@@ -134,10 +172,7 @@ class Picture {
   void legend() {
     const std::size_t pixels = static_cast<std::size_t>(map_.width) * static_cast<std::size_t>(map_.height);
     std::vector<std::pair<std::size_t, std::size_t>> counts;  // how often, which
-    for (std::size_t l = 0; l < map_.layers.size(); ++l) counts.emplace_back(0, l);
-    for (std::size_t i = 0; i < pixels; ++i) {
-      if (const std::size_t best = map_.best(i, measure_); best != Heatmap::kNoBest) ++counts[best].first;
-    }
+    for (const std::size_t count : countBest(measure_)) counts.emplace_back(count, counts.size());
     std::sort(counts.begin(), counts.end(), [](const auto& a, const auto& b) {
       return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
@@ -148,7 +183,7 @@ class Picture {
       y += 16;
       if (count == 0 || y + 16 > canvas_.image().height()) break;
       const double percent = 100 * static_cast<double>(count) / static_cast<double>(pixels);
-      canvas_.fill(x0, y - 2, kBar, 11, categoricalColour(layer));
+      canvas_.fill(x0, y - 2, kBar, 11, categoricalColour(rank_[layer]));
       canvas_.frame(x0, y - 2, kBar, 11, kInk);
       canvas_.text(x0 + kBar + 8, y,
                    formatNumber(std::round(10 * percent) / 10) + "% " + map_.layers[layer].estimator, kInk);
@@ -160,6 +195,7 @@ class Picture {
   Scale scale_;
   int dot_, panelWidth_, panelHeight_, columns_;
   LabCanvas canvas_;
+  std::vector<std::size_t> rank_;  ///< of each layer, for its colour in the map of the best
 };
 
 }  // namespace

@@ -68,7 +68,7 @@ void addWalks(LabTable& table, const LabOptions& o) {
       table.add({std::string("ratio walk: mean"), setting, std::exp(-1.0), inDouble.mean() - std::exp(-1.0),
                  inFloat.mean() - std::exp(-1.0)});
       table.add({std::string("ratio walk: largest error of the last position, free paths"), setting, 0.0, 0.0,
-                 worstPosition / freePath});
+                 otherCounts < kWalks ? worstPosition / freePath : std::nan("")});
       table.add({std::string("ratio walk: share of walks with another number of collisions"), setting, 0.0,
                  0.0, static_cast<double>(otherCounts) / kWalks});
       table.add({std::string("ratio walk: share of walks that would never end"), setting, 0.0, 0.0,
@@ -125,7 +125,9 @@ void addThin(LabTable& table) {
 
 LabTable precisionTable(const LabOptions& o) {
   LabTable table(o.command, {"quantity", "setting", "exact", "error_double", "error_float"});
-  table.note("the same random numbers and order of operations in both; errors against the exact value");
+  table.note(
+      "the same random numbers and order of operations in both; errors against the exact value; nan: no "
+      "two walks are alike");
   addWalks(table, o);
   addMarches(table);
   addProducts(table);

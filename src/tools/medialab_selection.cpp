@@ -136,8 +136,12 @@ std::vector<std::string> everyParameter() {
 
 }  // namespace
 
+bool EstimatorSelection::isAll() const {
+  return std::find(estimators.begin(), estimators.end(), kAll) != estimators.end();
+}
+
 std::vector<LabEstimator> EstimatorSelection::select(std::vector<LabTable::Skipped>& skipped) const {
-  const bool isAll = std::find(estimators.begin(), estimators.end(), kAll) != estimators.end();
+  const bool isAll = this->isAll();
   std::vector<LabEstimator> chosen;
   if (isAll) {
     if (estimators.size() > 1) throw std::runtime_error("\"all\" stands for every estimator: name no other");

@@ -22,6 +22,7 @@ struct EstimatorSelection {
   std::string law;                  ///< empty: each estimator's own
   std::vector<std::string> params;  ///< "name=value" for the law and for every estimator chosen
 
+  bool isAll() const;
   /// The estimators in order, labelled as they were written. One that cannot serve the law is an error if it
   /// was named, and told to `skipped` if it came with "all". A parameter must be known to the law or to each
   /// estimator named; with "all", to one at least.
