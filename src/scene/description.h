@@ -38,7 +38,8 @@ struct CameraDescription : Entity {
 
 struct MediumDescription : Entity {
   std::string name;
-  SharedTransform ctm;  ///< medium to world; only `start` counts
+  SharedTransform ctm;   ///< medium to world; only `start` counts
+  NameScope::Ptr scope;  ///< for the textures it refers to
 };
 
 enum class TextureFlavour : std::uint8_t { Float, Spectrum };

@@ -73,6 +73,7 @@ void DescriptionBuilder::makeMedium(Statement& s) {
   if (!typeFromParameter(s, medium)) return;
   warnIfAnimated(s);
   medium.ctm = state_.ctm;
+  medium.scope = state_.scope;
   const auto index = static_cast<std::uint32_t>(scene_.media.size());
   if (const auto [it, isNew] = mediaByName_.try_emplace(medium.name, index); !isNew) {
     diagnostics_.warning(nameAt, "medium " + quotedName(medium.name) + " was defined before at " +
