@@ -27,26 +27,30 @@ PathParams readPathParams(ParamReader& in) {
   return p;
 }
 
-/// Null for a scene without lights.
-std::unique_ptr<const LightSelector> selectorFor(const Scene& scene, const PathParams& p) {
-  if (scene.lights().empty()) return nullptr;
-  return makeLightSelector(lightStrategyOfName(p.lightSampleStrategy).value(), scene.lights(),
-                           scene.bounds());
+/// Null where there are no lights.
+std::unique_ptr<const LightSelector> selectorFor(const std::vector<const Light*>& lights, const Scene& scene,
+                                                 const PathParams& p) {
+  if (lights.empty()) return nullptr;
+  return makeLightSelector(lightStrategyOfName(p.lightSampleStrategy).value(), lights, scene.bounds());
 }
 
 IntegratorPlan readPath(ParamReader& in) {
   const PathParams p = readPathParams(in);
   return {[=](const Scene& scene, const CameraMedium&) -> std::unique_ptr<Integrator> {
-            return std::make_unique<PathIntegrator>(scene, p, selectorFor(scene, p));
+            return std::make_unique<PathIntegrator>(scene, p, selectorFor(scene.lights(), scene, p));
           },
           false, std::nullopt};
 }
 
 IntegratorPlan readVolPath(ParamReader& in) {
-  const PathParams p = readPathParams(in);
+  PathParams p = readPathParams(in);
+  constexpr std::array<std::string_view, 3> kSamplings = {"collision", "equiangular", "mis"};
+  p.mediumLightSampling = std::array{MediumLightSampling::Collision, MediumLightSampling::Equiangular,
+                                     MediumLightSampling::Mis}[in.findChoice(
+      "mediumlightsampling", kSamplings, static_cast<std::size_t>(p.mediumLightSampling))];
   return {[=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
-            return std::make_unique<VolPathIntegrator>(scene, p, selectorFor(scene, p),
-                                                       std::move(cameraMedium));
+            return std::make_unique<VolPathIntegrator>(
+                scene, p, selectorFor(scene.lightsWithMedia(), scene, p), std::move(cameraMedium));
           },
           true, std::nullopt};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/media_tracker.h"
 
+#include <cmath>
 #include <sstream>
 
 #include "integrators/boundary_closure.h"
@@ -174,6 +175,45 @@ MediumFlight MediaTracker::sampleFreeFlight(const MediumState& state, const Ray&
   const PlacedMedium m = state.active(0);
   const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), rng, counters);
   return {f.collided, f.t, f.weight, f.collided ? &m.medium->phase() : nullptr};
+}
+
+Rgb MediaTracker::scattering(const MediumState& state, const Ray& ray, double t, Vector3f wo, Vector3f wi,
+                             RenderCounters& counters) {
+  Rgb sum;
+  for (std::size_t i = 0; i < state.activeCount(); ++i) {
+    const PlacedMedium m = state.active(i);
+    const Rgb sigmaS = m.medium->at(segmentOf(m, ray, t, t).at(t), counters).sigmaS;
+    if (!sigmaS.isBlack()) sum += sigmaS * m.medium->phase().evaluate(wo, wi);
+  }
+  return sum;
+}
+
+double MediaTracker::flightDensity(const MediumState& state, const Ray& ray, double tMin, double t) {
+  Rgb depth, rate;
+  for (std::size_t i = 0; i < state.activeCount(); ++i) {
+    const PlacedMedium m = state.active(i);
+    const FlightControl control = m.medium->flightControl(segmentOf(m, ray, tMin, t));
+    depth += control.depth;
+    rate += control.rate;
+  }
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (rate[c] > 0) sum += static_cast<double>(rate[c]) * std::exp(-static_cast<double>(depth[c]));
+  }
+  return sum / 3;
+}
+
+bool MediaTracker::emits(const MediumState& state) {
+  for (std::size_t i = 0; i < state.activeCount(); ++i) {
+    if (state.active(i).medium->isEmissive()) return true;
+  }
+  return false;
+}
+
+EmissionDistance MediaTracker::sampleEmission(const MediumState& state, std::size_t i, const Ray& ray,
+                                              double tMin, double tMax, Rng& rng, RenderCounters& counters) {
+  const PlacedMedium m = state.active(i);
+  return m.medium->sampleEmission(segmentOf(m, ray, tMin, tMax), rng, counters);
 }
 
 Point3f MediaTracker::scatterPoint(const Ray& ray, double t, const BoundaryPlane& start,

@@ -71,6 +71,18 @@ class MediaTracker {
   /// through up to there.
   static MediumFlight sampleFreeFlight(const MediumState& state, const Ray& ray, double tMin, double tMax,
                                        Rng& rng, RenderCounters& counters);
+  /// What the media scatter at `t` from `wi` toward `wo` per length: the sum of sigma_s times the phase
+  /// function. `wi` away from the point, as `wo`.
+  static Rgb scattering(const MediumState& state, const Ray& ray, double t, Vector3f wo, Vector3f wi,
+                        RenderCounters& counters);
+  /// Density that a flight from tMin is taken to have for a collision at `t`, for weights: the mean over the
+  /// channels of what the media's controls say together.
+  static double flightDensity(const MediumState& state, const Ray& ray, double tMin, double t);
+  /// Whether some active medium emits.
+  static bool emits(const MediumState& state);
+  /// A point of the segment chosen where active medium number `i` emits.
+  static EmissionDistance sampleEmission(const MediumState& state, std::size_t i, const Ray& ray, double tMin,
+                                         double tMax, Rng& rng, RenderCounters& counters);
   /// The point at `t`, in single precision. When rounding may have put it beyond the boundary at an end of
   /// its segment it is moved back to the right side, by some float spacings; being beyond counts as a repair.
   static Point3f scatterPoint(const Ray& ray, double t, const BoundaryPlane& start, const BoundaryPlane& end,

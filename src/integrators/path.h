@@ -10,11 +10,19 @@
 
 namespace pbrtmedia {
 
+/// Which points of a medium take light samples of lights that shine from one point.
+enum class MediumLightSampling {
+  Collision,    ///< where the path collides
+  Equiangular,  ///< on every stretch in a medium a distance with density proportional to 1/r² from the light
+  Mis,          ///< both, by multiple importance sampling
+};
+
 /// Parameters that `path` and `volpath` share (scene-language reference 11.1, 11.2).
 struct PathParams {
   int maxDepth = 5;                             ///< scattering vertices of a path; 0: visible emission only
   float rrThreshold = 1;                        ///< roulette is played on throughputs below it; 0: never
   std::string lightSampleStrategy = "spatial";  ///< uniform, power or spatial; for whoever makes the selector
+  MediumLightSampling mediumLightSampling = MediumLightSampling::Mis;  ///< `volpath` only
 };
 
 /// Integrator `path`: unidirectional path tracing over surfaces, next-event estimation and multiple

@@ -2,6 +2,7 @@
 #include "integrators/path_tracer.h"
 
 #include "base/warp.h"
+#include "integrators/medium_light.h"
 
 namespace pbrtmedia {
 namespace {
@@ -38,7 +39,7 @@ PathTracer::PathTracer(const PathSetup& setup, const RayDifferential& ray, const
 
 Rgb PathTracer::trace() {
   for (;;) {
-    if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters()) return radiance_;
+    if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters() && !setup_.mediaEmit) return radiance_;
     switch (travel()) {
       case Event::End:
         return radiance_;
@@ -67,7 +68,10 @@ PathTracer::Event PathTracer::travel() {
     if (!nearest && setup_.media) setup_.media->escape(state_, counters_);
     if (seesOnlyEmission()) {
       const bool blocked = nearest && nearest->primitive->material && !nearest->isEmitter();
-      if (blocked || (!nearest && setup_.scene.infiniteLights().empty())) return Event::End;
+      if (blocked || (!nearest && setup_.scene.infiniteLights().empty())) {
+        if (setup_.mediaEmit) collectMediumEmission(t, tEnd);
+        return Event::End;
+      }
     }
     if (!state_.isVacuum()) {
       Event event = Event::End;
@@ -99,23 +103,67 @@ PathTracer::Event PathTracer::travel() {
 /// The media between two surfaces. True: the path passes. False: `event` tells whether it scatters or ends.
 bool PathTracer::passMedium(double tMin, double tMax, const SceneHit* hit, const BoundaryPlane& start,
                             Event& event) {
+  if (setup_.mediaEmit) collectMediumEmission(tMin, tMax);
   if (seesOnlyEmission()) {
     beta_ *= MediaTracker::transmittance(state_, ray_, tMin, tMax, context_.rng, counters_);
     return !beta_.isBlack();
   }
+  if (setup_.positionLights) lightStretch(tMin, tMax, hit, start);
   const MediumFlight flight =
       MediaTracker::sampleFreeFlight(state_, ray_, tMin, tMax, context_.rng, counters_);
   beta_ *= flight.weight;
   if (beta_.isBlack()) return false;
   if (!flight.collided) return true;
-  BoundaryPlane end;
-  if (hit && tMax - flight.t < MediaTracker::kNearBoundary * (tMax + maxComponent(abs(ray_.o)))) {
-    end = planeAt(setup_.scene.surface(*hit, ray_), -ray_.d);
-  }
-  medium_ = {MediaTracker::scatterPoint(ray_, flight.t, start, end, counters_), flight.phase};
+  medium_ = {mediumPoint(flight.t, tMax, hit, start), flight.phase, flight.t, tMin, tMax};
   if (!isFinite(medium_.p)) return false;  // beyond what coordinates can tell: nothing is out there
   event = Event::Medium;
   return false;
+}
+
+/// The point at `t` of a stretch that ends at tMax with `hit`, on the right side of the boundaries.
+Point3f PathTracer::mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start) {
+  BoundaryPlane end;
+  if (hit && tMax - t < MediaTracker::kNearBoundary * (tMax + maxComponent(abs(ray_.o)))) {
+    end = planeAt(setup_.scene.surface(*hit, ray_), -ray_.d);
+  }
+  return MediaTracker::scatterPoint(ray_, t, start, end, counters_);
+}
+
+/// Single scattering of a light at one point, at a distance chosen for that light. The flight that follows
+/// may collide and sample the same light: `collisionShare` divides the work.
+void PathTracer::lightStretch(double tMin, double tMax, const SceneHit* hit, const BoundaryPlane& start) {
+  const float u = samples_.get1D(), v = samples_.get1D();
+  const auto choice = setup_.positionLights->sample(ray_, tMin, tMax, u, v);
+  if (!choice) return;
+  const Point3f p = mediumPoint(choice->t, tMax, hit, start);
+  if (!isFinite(p)) return;
+  const PickedLight light{choice->light, setup_.lights[choice->light]->sample(p, {})};
+  const LightSample& s = light.sample;
+  if (!(s.pdf > 0) || s.radiance.isBlack()) return;
+  const Rgb scattered = MediaTracker::scattering(state_, ray_, choice->t, -ray_.d, s.wi, counters_);
+  if (scattered.isBlack()) return;
+  double density = choice->pdf;
+  if (setup_.params.mediumLightSampling == MediumLightSampling::Mis) {
+    density += MediaTracker::flightDensity(state_, ray_, tMin, choice->t) *
+               double{setup_.selector->probability(p, choice->light)};
+  }
+  const Rgb through = MediaTracker::transmittance(state_, ray_, tMin, choice->t, context_.rng, counters_);
+  if (through.isBlack()) return;
+  radiance_ += beta_ * through * scattered * s.radiance * static_cast<float>(1 / density) *
+               unoccluded(light, p, {}, state_);
+}
+
+/// What the media emit between two surfaces, at one distance for each that does.
+void PathTracer::collectMediumEmission(double tMin, double tMax) {
+  for (std::size_t i = 0; i < state_.activeCount(); ++i) {
+    const PlacedMedium m = state_.active(i);
+    if (!m.medium->isEmissive()) continue;
+    const EmissionDistance e =
+        MediaTracker::sampleEmission(state_, i, ray_, tMin, tMax, context_.rng, counters_);
+    if (!(e.pdf > 0) || e.emission.isBlack()) continue;
+    const Rgb through = MediaTracker::transmittance(state_, ray_, tMin, e.t, context_.rng, counters_);
+    radiance_ += beta_ * through * e.emission * static_cast<float>(1 / e.pdf) * mediumEmissionWeight(m, e.t);
+  }
 }
 
 SurfaceInteraction PathTracer::surfaceAt(const SceneHit& hit) const {
@@ -128,10 +176,22 @@ SurfaceInteraction PathTracer::surfaceAt(const SceneHit& hit) const {
 float PathTracer::emissionWeight(std::size_t light, const SurfaceInteraction* si) const {
   if (isDirect_) return 1;
   if (light == SceneHit::kNoLight) return 0;  // visible, but no source of illumination
-  const Light& source = *setup_.scene.lights()[light];
+  const Light& source = *setup_.lights[light];
   if (ownsUniformLights_ && source.isUniformInfinite()) return 1;
   const float lightPdf = setup_.selector->probability(ray_.o, light) * source.pdf(ray_.o, ray_.d, si);
   return powerHeuristic(directionPdf_, lightPdf);
+}
+
+/// The same for emission that a medium shows at `t` of the segment.
+float PathTracer::mediumEmissionWeight(const PlacedMedium& medium, double t) const {
+  if (isDirect_ || medium.placement) return 1;  // a placed medium is no light
+  const std::optional<std::size_t> light = setup_.scene.lightOf(medium.medium);
+  if (!light) return 1;
+  const MediumLight& source = *setup_.scene.mediumLight(*light);
+  const double lightPdf =
+      double{setup_.selector->probability(ray_.o, *light)} * source.pdfAt(ray_.o, ray_.d, t);
+  return powerHeuristic(static_cast<float>(directionPdf_ * source.distancePdf(ray_.o, ray_.d, t)),
+                        static_cast<float>(lightPdf));
 }
 
 void PathTracer::collectEmission(const SceneHit& hit, const SurfaceInteraction& si) {
@@ -141,7 +201,7 @@ void PathTracer::collectEmission(const SceneHit& hit, const SurfaceInteraction& 
 
 void PathTracer::collectBackground() {
   for (const std::uint32_t light : setup_.scene.infiniteLights()) {
-    const Rgb background = setup_.scene.lights()[light]->background(ray_.d);
+    const Rgb background = setup_.lights[light]->background(ray_.d);
     if (!background.isBlack()) radiance_ += beta_ * background * emissionWeight(light, nullptr);
   }
 }
@@ -201,7 +261,7 @@ void PathTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane,
 
 /// A light and a point on it; nothing when light sampling has no part in the estimate.
 std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool scatteringFindsUniformLights) {
-  const auto& lights = setup_.scene.lights();
+  const auto& lights = setup_.lights;
   if (lights.empty()) return std::nullopt;
   const auto skips = [&](std::size_t i) {
     return scatteringFindsUniformLights && lights[i]->isUniformInfinite();
@@ -218,12 +278,43 @@ std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool sca
 
 Rgb PathTracer::unoccluded(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state) {
   const Scene& scene = setup_.scene;
-  const ShadowRay shadow = shadowRayTo(light.sample, p, ray_.time, start, scene.lightTarget(light.index));
+  ShadowRay shadow = shadowRayTo(light.sample, p, ray_.time, start, scene.lightTarget(light.index));
   if (setup_.media) {
-    return shadowTransmittance(scene, *setup_.media, shadow, state, context_.rng, counters_,
-                               context_.mismatches);
+    const MediumLight* const emitter = scene.mediumLight(light.index);
+    if (emitter) shadow.ray.tMax = light.sample.distance;
+    MediumState end = state;
+    const Rgb through =
+        shadowTransmittance(scene, *setup_.media, shadow, end, context_.rng, counters_, context_.mismatches);
+    if (!emitter || through.isBlack()) return through;
+    // As often as the medium is there, as distances are sampled.
+    float present = 0;
+    for (std::size_t i = 0; i < end.activeCount(); ++i) {
+      if (end.active(i) == PlacedMedium{&emitter->medium(), nullptr}) ++present;
+    }
+    return through * present;
   }
   return Rgb(scene.occluded(shadow.ray, 0, shadow.exclusions, counters_.shadowRays) ? 0.0f : 1.0f);
+}
+
+/// Share of a light sample at `p`; what a direction of that density finds accounts for the rest.
+float PathTracer::lightWeight(const PickedLight& light, Point3f p, float directionPdf) const {
+  if (setup_.lights[light.index]->isDelta()) return 1;
+  const LightSample& s = light.sample;
+  if (const MediumLight* const emitter = setup_.scene.mediumLight(light.index)) {
+    directionPdf *= static_cast<float>(emitter->distancePdf(p, s.wi, double{s.distance}));
+  }
+  return powerHeuristic(s.pdf, directionPdf);
+}
+
+/// Share of a collision's sample of a light at one point; `lightStretch` accounts for the rest.
+float PathTracer::collisionShare(std::size_t light, Point3f p) const {
+  if (!setup_.positionLights || !setup_.positionLights->contains(light)) return 1;
+  if (setup_.params.mediumLightSampling == MediumLightSampling::Equiangular) return 0;
+  const double flight = MediaTracker::flightDensity(state_, ray_, medium_.tMin, medium_.t) *
+                        double{setup_.selector->probability(p, light)};
+  const double stretch = setup_.positionLights->pdf(light, ray_, medium_.tMin, medium_.tMax, medium_.t);
+  if (!(stretch > 0)) return 1;
+  return static_cast<float>(flight / (flight + stretch));
 }
 
 void PathTracer::lightSurface(const Bsdf& bsdf) {
@@ -233,8 +324,7 @@ void PathTracer::lightSurface(const Bsdf& bsdf) {
   const LightSample& s = light->sample;
   const Rgb f = bsdf.f(si.wo, s.wi, BsdfFlags::AllButSpecular) * absDot(s.wi, bsdf.shadingNormal());
   if (f.isBlack()) return;
-  const bool isDelta = setup_.scene.lights()[light->index]->isDelta();
-  const float weight = isDelta ? 1 : powerHeuristic(s.pdf, bsdf.pdf(si.wo, s.wi));
+  const float weight = lightWeight(*light, si.p, bsdf.pdf(si.wo, s.wi));
   MediumState state = state_;
   if (setup_.media) {
     setup_.media->leaveSurface(state, surface_.hit, si, s.wi, counters_, context_.mismatches);
@@ -249,8 +339,8 @@ void PathTracer::lightMedium() {
   const LightSample& s = light->sample;
   const float phase = medium_.phase->evaluate(-ray_.d, s.wi);
   if (!(phase > 0)) return;
-  const bool isDelta = setup_.scene.lights()[light->index]->isDelta();
-  const float weight = isDelta ? 1 : powerHeuristic(s.pdf, phase);
+  const float weight = lightWeight(*light, medium_.p, phase) * collisionShare(light->index, medium_.p);
+  if (!(weight > 0)) return;
   radiance_ += beta_ * s.radiance * (phase * weight / s.pdf) * unoccluded(*light, medium_.p, {}, state_);
 }
 

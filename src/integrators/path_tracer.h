@@ -7,6 +7,7 @@
 #include "integrators/media_tracker.h"
 #include "integrators/path.h"
 #include "integrators/path_samples.h"
+#include "integrators/position_lights.h"
 #include "integrators/visibility.h"
 
 namespace pbrtmedia {
@@ -15,8 +16,11 @@ namespace pbrtmedia {
 struct PathSetup {
   const Scene& scene;
   const PathParams& params;
-  const LightSelector* selector;  ///< null: no lights
-  const MediaTracker* media;      ///< null: media are ignored
+  const std::vector<const Light*>& lights;
+  const LightSelector* selector;         ///< of `lights`; null: there are none
+  const MediaTracker* media;             ///< null: media are ignored
+  const PositionLights* positionLights;  ///< those that stretches in media are sampled for; null: none
+  bool mediaEmit;                        ///< some medium may emit
 };
 
 /// One path of `path` or `volpath`, from the camera to its end. Every vertex takes one light sample, and its
@@ -38,12 +42,16 @@ class PathTracer {
   struct MediumVertex {
     Point3f p;
     const PhaseFunction* phase;
+    double t, tMin, tMax;  ///< on the ray, and the stretch in media that it was sampled on
   };
   enum class Event { End, Surface, Medium };
 
   // Each path event is one function. Those that return bool tell whether the path goes on.
   Event travel();
   bool passMedium(double tMin, double tMax, const SceneHit* hit, const BoundaryPlane& start, Event& event);
+  Point3f mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
+  void lightStretch(double tMin, double tMax, const SceneHit* hit, const BoundaryPlane& start);
+  void collectMediumEmission(double tMin, double tMax);
   void collectEmission(const SceneHit& hit, const SurfaceInteraction& si);
   void collectBackground();
   bool scatterOnSurface();
@@ -58,7 +66,10 @@ class PathTracer {
   };
   std::optional<PickedLight> pickLight(Point3f p, bool scatteringFindsUniformLights);
   Rgb unoccluded(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state);
+  float lightWeight(const PickedLight& light, Point3f p, float directionPdf) const;
+  float collisionShare(std::size_t light, Point3f p) const;
   float emissionWeight(std::size_t light, const SurfaceInteraction* si) const;
+  float mediumEmissionWeight(const PlacedMedium& medium, double t) const;
   SurfaceInteraction surfaceAt(const SceneHit& hit) const;
   void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, PrimitiveId start);
   bool seesOnlyEmission() const { return bounces_ >= setup_.params.maxDepth; }

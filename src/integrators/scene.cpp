@@ -33,10 +33,14 @@ Scene::Scene(std::unique_ptr<Parts> parts)
   for (std::uint32_t i = 0; i < lights_.size(); ++i) {
     if (lights_[i]->isInfinite()) infiniteLights_.push_back(i);
   }
+  lightsWithMedia_ = lights_;
+  for (const auto& light : parts_->mediumLights) lightsWithMedia_.push_back(light.get());
   hasVisibleEmitters_ = !infiniteLights_.empty();
+  const auto emits = [](const Medium* medium) { return medium && medium->isEmissive(); };
   for (const auto& group : primitiveGroups()) {
     for (const Primitive* p : group) {
       hasMediumBoundaries_ |= !p->media.same();
+      hasEmissiveMedia_ |= emits(p->media.inside) || emits(p->media.outside);
       hasShadowAlpha_ |= p->shadowAlpha != nullptr;
       hasVisibleEmitters_ |= !p->areaLights.empty();
     }
@@ -44,6 +48,19 @@ Scene::Scene(std::unique_ptr<Parts> parts)
 }
 
 Scene::~Scene() = default;
+
+std::optional<std::size_t> Scene::lightOf(const Medium* medium) const {
+  for (std::size_t i = 0; i < parts_->mediumLights.size(); ++i) {
+    if (&parts_->mediumLights[i]->medium() == medium) return lights_.size() + i;
+  }
+  return std::nullopt;
+}
+
+const MediumLight* Scene::mediumLight(std::size_t light) const {
+  return light < lights_.size() ? nullptr : parts_->mediumLights[light - lights_.size()].get();
+}
+
+const std::vector<Medium*>& Scene::media() const { return parts_->media; }
 
 SceneHit Scene::resolve(const RayHit& hit) const {
   SceneHit result{.hit = hit};

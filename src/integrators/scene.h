@@ -13,6 +13,8 @@
 
 namespace pbrtmedia {
 
+class MediumLight;
+
 /// An object placed in the world. A medium seen through a placement moves along with it.
 class Placement {
  public:
@@ -72,9 +74,22 @@ class Scene {
   /// The lights that illuminate, in order of addition; light selectors speak of these numbers.
   const std::vector<const Light*>& lights() const { return lights_; }
   /// The primitive a light is on, to be left out when its visibility is tested; invalid for other lights.
-  PrimitiveId lightTarget(std::size_t light) const { return lightTargets_[light]; }
+  PrimitiveId lightTarget(std::size_t light) const {
+    return light < lightTargets_.size() ? lightTargets_[light] : PrimitiveId{};
+  }
+  /// The same, followed by the emissive media; for integrators that render media.
+  const std::vector<const Light*>& lightsWithMedia() const { return lightsWithMedia_; }
+  /// Number in lightsWithMedia() of a medium; nothing when light sampling does not look for it.
+  std::optional<std::size_t> lightOf(const Medium* medium) const;
+  /// Number `light` of lightsWithMedia(), null when that is no medium.
+  const MediumLight* mediumLight(std::size_t light) const;
+  /// Some primitive names a medium that emits.
+  bool hasEmissiveMedia() const { return hasEmissiveMedia_; }
   /// Those of lights() that answer rays leaving the scene: index into lights().
   const std::vector<std::uint32_t>& infiniteLights() const { return infiniteLights_; }
+  /// The media of the scene that SceneBuilder::addMedium was told of. Not const, as bounds may be learned;
+  /// nothing else changes.
+  const std::vector<Medium*>& media() const;
   /// Bounds of all surfaces (over all times). Empty for a scene without surfaces.
   const Bounds3f& bounds() const { return bounds_; }
   /// Some primitive names a medium.
@@ -94,11 +109,12 @@ class Scene {
   SceneHit resolve(const RayHit& hit) const;
 
   std::unique_ptr<Parts> parts_;
-  std::vector<const Light*> lights_;
+  std::vector<const Light*> lights_, lightsWithMedia_;
   std::vector<PrimitiveId> lightTargets_;
   std::vector<std::uint32_t> infiniteLights_;
   Bounds3f bounds_;
-  bool hasMediumBoundaries_ = false, hasShadowAlpha_ = false, hasVisibleEmitters_ = false;
+  bool hasMediumBoundaries_ = false, hasShadowAlpha_ = false, hasVisibleEmitters_ = false,
+       hasEmissiveMedia_ = false;
 };
 
 }  // namespace pbrtmedia

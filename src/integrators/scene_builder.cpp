@@ -36,6 +36,11 @@ SceneBuilder::~SceneBuilder() = default;
 
 void SceneBuilder::keep(Owned object) { parts_->owned.push_back(std::move(object)); }
 
+Medium* SceneBuilder::addMedium(std::unique_ptr<Medium> medium) {
+  parts_->media.push_back(own(std::move(medium)));
+  return parts_->media.back();
+}
+
 std::uint32_t SceneBuilder::nextGeometry() const {
   return static_cast<std::uint32_t>(parts_->entries.size());
 }
@@ -83,6 +88,9 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
   parts_->top.accelerator.build();
   const Bounds3f bounds = parts_->top.accelerator.bounds();
   for (Light* light : parts_->lights) light->preprocess(bounds);
+  std::vector<const Primitive*> placed;
+  for (const Scene::Parts::PlacedPrimitive& p : parts_->top.primitives) placed.push_back(&p.primitive);
+  parts_->mediumLights = makeMediumLights(placed);
   return std::unique_ptr<Scene>(new Scene(std::move(parts_)));
 }
 

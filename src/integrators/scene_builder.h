@@ -30,6 +30,9 @@ class SceneBuilder {
     return raw;
   }
 
+  /// Owns a medium that the scene tells of (Scene::media).
+  Medium* addMedium(std::unique_ptr<Medium> medium);
+
   /// The PrimitiveId::geometry that the next directly placed primitive will have.
   std::uint32_t nextGeometry() const;
   /// Places a shape directly. Its area lights illuminate and get consecutive numbers in Scene::lights().

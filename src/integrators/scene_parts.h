@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "integrators/alpha_filter.h"
+#include "integrators/medium_light.h"
 #include "integrators/scene.h"
 
 namespace pbrtmedia {
@@ -36,9 +37,11 @@ struct Scene::Parts {
   };
 
   std::vector<Owned> owned;
+  std::vector<Medium*> media;  ///< among the owned
   std::vector<std::unique_ptr<Light>> freeLights;
   std::vector<Light*> lights;
   std::vector<PrimitiveId> lightTargets;
+  std::vector<std::unique_ptr<MediumLight>> mediumLights;
   std::deque<Group> objects;
   std::deque<Placement> placements;
   std::vector<Entry> entries;

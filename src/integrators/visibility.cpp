@@ -22,7 +22,7 @@ ShadowRay shadowRayTo(const LightSample& sample, Point3f p, float time, Primitiv
 }
 
 Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
-                        MediumState state, Rng& rng, RenderCounters& counters, MismatchLog* log) {
+                        MediumState& state, Rng& rng, RenderCounters& counters, MismatchLog* log) {
   const Ray& ray = shadow.ray;
   LineWalk walk(scene, ray, shadow.exclusions);
   Rgb product(1.0f);

@@ -18,8 +18,8 @@ ShadowRay shadowRayTo(const LightSample& sample, Point3f p, float time, Primitiv
 
 /// Transmittance of the media along the shadow ray, starting in `state`: black when a surface with a material
 /// is in the way. Boundaries without material are crossed. shadowalpha does not apply (closest hits are
-/// searched).
+/// searched). `state` is then that of the far end.
 Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
-                        MediumState state, Rng& rng, RenderCounters& counters, MismatchLog* log);
+                        MediumState& state, Rng& rng, RenderCounters& counters, MismatchLog* log);
 
 }  // namespace pbrtmedia

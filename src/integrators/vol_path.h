@@ -7,14 +7,16 @@
 #include "integrators/integrator.h"
 #include "integrators/light_selector.h"
 #include "integrators/path.h"
+#include "integrators/position_lights.h"
 
 namespace pbrtmedia {
 
 /// Integrator `volpath`: path tracing over surfaces and media. Scattering in a medium counts as a bounce,
-/// crossing a boundary without material does not. Unbiased.
+/// crossing a boundary without material does not. Media that emit are found by the distances at which paths
+/// look for emission and, being lights, by light samples. Unbiased.
 class VolPathIntegrator final : public Integrator {
  public:
-  /// `selector` may be null when the scene has no lights.
+  /// `selector` is over Scene::lightsWithMedia(); may be null when that is empty.
   VolPathIntegrator(const Scene& scene, const PathParams& params,
                     std::unique_ptr<const LightSelector> selector, CameraMedium cameraMedium);
   ~VolPathIntegrator() override;
@@ -28,6 +30,8 @@ class VolPathIntegrator final : public Integrator {
   std::unique_ptr<const LightSelector> selector_;
   CameraMedium cameraMedium_;
   MediaTracker tracker_;
+  PositionLights positionLights_;
+  bool hasMedia_, mediaEmit_;
 };
 
 }  // namespace pbrtmedia

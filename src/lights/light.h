@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "accelerators/accelerator.h"
@@ -34,6 +35,13 @@ class Light {
   virtual bool isInfinite() const { return false; }
   /// The same radiance from every direction, so that sampling a BSDF or phase function finds it best.
   virtual bool isUniformInfinite() const { return false; }
+  /// The one point all its light comes from, if there is one; then radiance falls with 1/r².
+  virtual std::optional<Point3f> deltaPosition() const { return std::nullopt; }
+  /// Of a light with `deltaPosition`: narrows [tMin, tMax] (tMax may be infinite) to a part of the line
+  /// o + t d, world space, beyond which no light of it falls on the line; empty: tMin > tMax.
+  virtual void clipToLit(Vec3d o, Vec3d d, double& tMin, double& tMax) const {
+    (void)o, (void)d, (void)tMin, (void)tMax;
+  }
   /// "samples": how many of this light's samples `directlighting` takes.
   int sampleCount() const { return sampleCount_; }
   /// Called once with the scene's bounds before rendering.

@@ -18,6 +18,7 @@ class PointLight final : public Light {
 
   std::string_view typeName() const override { return "point"; }
   bool isDelta() const override { return true; }
+  std::optional<Point3f> deltaPosition() const override { return position_; }
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
   Rgb power() const override;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "lights/projection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -11,6 +12,8 @@ namespace pbrtmedia {
 namespace {
 
 constexpr float kNearZ = 0.001f;  // cosine from the axis below which nothing is projected (reference 16.5)
+
+constexpr double kRoom = 1e-5;  // relative room for single-precision points and transforms
 
 }  // namespace
 
@@ -38,6 +41,27 @@ Rgb ProjectionLight::projected(Vector3f w) const {
   if (std::abs(x) > halfWindow_.x || std::abs(y) > halfWindow_.y) return {};
   if (!map_) return Rgb(1);
   return map_->lookup({(x / halfWindow_.x + 1) / 2, (y / halfWindow_.y + 1) / 2});
+}
+
+void ProjectionLight::clipToLit(Vec3d o, Vec3d d, double& tMin, double& tMax) const {
+  // In light space the picture is the cone |x| <= halfWidth z, |y| <= halfHeight z: four planes.
+  const auto toLight = [&](Vec3d v) {
+    return v.x * Vec3d(lightFromWorld_.x) + v.y * Vec3d(lightFromWorld_.y) + v.z * Vec3d(lightFromWorld_.z);
+  };
+  const Vec3d w0 = toLight(o - Vec3d(position_)), w1 = toLight(d);
+  const double room = kRoom * length(w0);
+  const auto clip = [&](Vec3d normal) {
+    const double height = dot(w0, normal) + room, slope = dot(w1, normal);
+    if (slope > 0) tMin = std::max(tMin, -height / slope);
+    if (slope < 0) tMax = std::min(tMax, -height / slope);
+    if (slope == 0 && height < 0) tMax = -kInfinity;
+  };
+  const double x = double{halfWindow_.x} * double{tanHalfFov_} * (1 + kRoom),
+               y = double{halfWindow_.y} * double{tanHalfFov_} * (1 + kRoom);
+  clip(normalize(Vec3d(1, 0, x)));
+  clip(normalize(Vec3d(-1, 0, x)));
+  clip(normalize(Vec3d(0, 1, y)));
+  clip(normalize(Vec3d(0, -1, y)));
 }
 
 LightSample ProjectionLight::sample(Point3f reference, Point2f) const {

@@ -25,6 +25,8 @@ class ProjectionLight final : public Light {
 
   std::string_view typeName() const override { return "projection"; }
   bool isDelta() const override { return true; }
+  std::optional<Point3f> deltaPosition() const override { return position_; }
+  void clipToLit(Vec3d o, Vec3d d, double& tMin, double& tMax) const override;
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
   Rgb power() const override;

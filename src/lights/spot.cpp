@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "lights/spot.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "lights/light_geometry.h"
 
 namespace pbrtmedia {
+namespace {
+
+constexpr double kRoom = 1e-6;  // of the distances involved: some float spacings
+
+}  // namespace
 
 SpotLight::SpotLight(const Transform& worldFromLight, const Params& params)
     : lightFromWorld_(worldFromLight.inverse()),
@@ -27,6 +34,36 @@ double SpotLight::falloff(double cosine) const {
   if (cosine < cosTotal_) return 0;
   if (cosine >= cosFalloffStart_) return 1;
   return sqr(sqr((cosine - cosTotal_) / (cosFalloffStart_ - cosTotal_)));
+}
+
+void SpotLight::clipToLit(Vec3d o, Vec3d d, double& tMin, double& tMax) const {
+  if (!(cosTotal_ > 0)) return;  // a cone of 90 degrees or more: what is dark is not worth cutting out
+  // Light space, apex at the origin: inside where cos² |w|² <= (w . axis)² and w . axis > 0.
+  const Vec3d w0 = lightFromWorld_.vector(o - Vec3d(position_)), w1 = lightFromWorld_.vector(d);
+  const double along0 = dot(w0, axis_), along1 = dot(w1, axis_), cos2 = sqr(cosTotal_);
+  const double a = sqr(along1) - cos2 * lengthSquared(w1), b = along0 * along1 - cos2 * dot(w0, w1),
+               c = sqr(along0) - cos2 * lengthSquared(w0);
+  const double discriminant = b * b - a * c;
+  if (a == 0 || !(discriminant >= 0)) {
+    if (a < 0) tMax = -kInfinity;  // never inside
+    return;
+  }
+  const double root = std::sqrt(discriminant);
+  const double low = (-b + (a > 0 ? -root : root)) / a, high = (-b + (a > 0 ? root : -root)) / a;
+  // Points are rounded to single precision before the light is asked, so the cut leaves that much room.
+  const double room = kRoom * (length(w0) / length(w1) + std::abs(low) + std::abs(high));
+  if (a < 0) {  // both crossings on one half of the double cone
+    if (along0 + (low + high) / 2 * along1 < 0) {
+      tMax = -kInfinity;
+      return;
+    }
+    tMin = std::max(tMin, low - room);
+    tMax = std::min(tMax, high + room);
+  } else if (along1 > 0) {
+    tMin = std::max(tMin, high - room);
+  } else {
+    tMax = std::min(tMax, low + room);
+  }
 }
 
 LightSample SpotLight::sample(Point3f reference, Point2f) const {

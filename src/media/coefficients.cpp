@@ -6,18 +6,27 @@
 #include "base/diagnostics.h"
 
 namespace pbrtmedia {
+namespace {
+
+void check(Rgb value, std::string_view parameter, std::string_view mediumName) {
+  if (value.isFinite() && value.min() >= 0) return;
+  std::ostringstream message;
+  message << "medium \"" << mediumName << "\": " << parameter
+          << " must be finite and >= 0 in every channel; found " << value;
+  throw SceneError(SourceLocation{}, message.str());
+}
+
+}  // namespace
 
 void checkCoefficients(Rgb sigmaA, Rgb sigmaS, std::string_view mediumName) {
-  const auto check = [&](Rgb sigma, std::string_view parameter) {
-    if (sigma.isFinite() && sigma.min() >= 0) return;
-    std::ostringstream message;
-    message << "medium \"" << mediumName << "\": " << parameter
-            << " must be finite and >= 0 in every channel; found " << sigma;
-    throw SceneError(SourceLocation{}, message.str());
-  };
-  check(sigmaA, "\"sigma_a\"");
-  check(sigmaS, "\"sigma_s\"");
-  check(sigmaA + sigmaS, "sigma_a + sigma_s");
+  check(sigmaA, "\"sigma_a\"", mediumName);
+  check(sigmaS, "\"sigma_s\"", mediumName);
+  check(sigmaA + sigmaS, "sigma_a + sigma_s", mediumName);
+}
+
+void checkEmission(Rgb le, Rgb emission, std::string_view mediumName) {
+  check(le, "\"Le\" times \"Lescale\"", mediumName);
+  check(emission, "sigma_a times Le", mediumName);
 }
 
 }  // namespace pbrtmedia

@@ -11,4 +11,7 @@ namespace pbrtmedia {
 /// sum.
 void checkCoefficients(Rgb sigmaA, Rgb sigmaS, std::string_view mediumName);
 
+/// The same for emitted radiance and sigma_a times it.
+void checkEmission(Rgb le, Rgb emission, std::string_view mediumName);
+
 }  // namespace pbrtmedia

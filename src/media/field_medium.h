@@ -11,13 +11,17 @@
 #include <utility>
 #include <variant>
 
+#include "base/diagnostics.h"
 #include "fields/field_line.h"
 #include "fields/super_voxels.h"
 #include "freeflight/any_sampler.h"
 #include "media/coefficients.h"
+#include "media/control_density.h"
+#include "media/field_emission.h"
 #include "media/field_medium_params.h"
 #include "media/medium.h"
 #include "transmittance/any_estimator.h"
+#include "transmittance/estimate_on.h"
 #include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
@@ -28,18 +32,38 @@ namespace pbrtmedia {
 template <class Field>
 class FieldMedium final : public Medium {
  public:
-  /// Throws SceneError (location unknown) when a parameter is out of range.
-  FieldMedium(const FieldMediumParams& params, std::string_view typeName, Field field, SuperVoxels bounds)
+  /// Throws SceneError (location unknown) when a parameter is out of range. `pattern`: of the emission, may
+  /// be null.
+  /// `bounds`: nothing for a field that has its own in force (UnprovenField).
+  FieldMedium(const FieldMediumParams& params, std::string_view typeName, Field field,
+              std::optional<SuperVoxels> bounds, std::unique_ptr<const EmissionPattern> pattern = nullptr)
       : Medium(params.name, params.overlap),
         field_(std::move(field)),
-        bounds_(std::move(bounds)),
+        ownBounds_(std::move(bounds)),
+        bounds_(inForce(field_, ownBounds_)),
         typeName_(typeName),
         sigmaT_(params.sigmaA + params.sigmaS),
         estimator_(params.estimator),
         sampler_(params.sampler),
-        phase_(makePhaseFunction(params.phase)) {
+        samplingPattern_(params.pattern),
+        phase_(makePhaseFunction(params.phase)),
+        sigmaS_(params.sigmaS),
+        emission_(params.sigmaA * params.le, std::move(pattern), bounds_, field_.worldFromLocal()) {
     checkCoefficients(params.sigmaA, params.sigmaS, name());
+    checkEmission(params.le, params.sigmaA * params.le, name());
     for (std::size_t c = 0; c < 3; ++c) albedo_[c] = sigmaT_[c] > 0 ? params.sigmaS[c] / sigmaT_[c] : 0.0f;
+    if (!PiecewiseCubicField<Field> && (traitsOf(estimator_).needsPieces || traitsOf(sampler_).needsPieces)) {
+      throw SceneError(SourceLocation{},
+                       "regular tracking goes from voxel to voxel, but this density has none");
+    }
+  }
+
+  LearnedBounds* learnedBounds() override {
+    if constexpr (requires { field_.learned(); }) {
+      return field_.learned();
+    } else {
+      return nullptr;
+    }
   }
 
   std::string_view typeName() const override { return typeName_; }
@@ -50,19 +74,71 @@ class FieldMedium final : public Medium {
     if (hasNaN(segment)) return kNaN;
     const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
     if (!line) return Rgb(1.0f);
-    return sigmaT_.isGrey() ? estimate(*line, Channels<1>{sigmaT_.r}, rng, counters)
-                            : estimate(*line, Channels<3>{sigmaT_.r, sigmaT_.g, sigmaT_.b}, rng, counters);
+    return sigmaT_.isGrey()
+               ? estimate(*line, segment, Channels<1>{sigmaT_.r}, rng, counters)
+               : estimate(*line, segment, Channels<3>{sigmaT_.r, sigmaT_.g, sigmaT_.b}, rng, counters);
   }
 
   FreeFlight sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters& counters) const override {
     if (hasNaN(segment)) return {.weight = kNaN};
     const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
     if (!line) return {};
-    FreeFlight flight = sigmaT_.isGrey()
-                            ? fly(*line, Channels<1>{sigmaT_.r}, rng, counters)
-                            : fly(*line, Channels<3>{sigmaT_.r, sigmaT_.g, sigmaT_.b}, rng, counters);
+    FreeFlight flight =
+        sigmaT_.isGrey() ? fly(*line, segment, Channels<1>{sigmaT_.r}, rng, counters)
+                         : fly(*line, segment, Channels<3>{sigmaT_.r, sigmaT_.g, sigmaT_.b}, rng, counters);
     if (flight.collided) flight.t = std::clamp(flight.t, segment.tMin, segment.tMax);
     return flight;
+  }
+
+  MediumPoint at(Point3f p, RenderCounters& counters) const override {
+    const Vec3d local = field_.localFromWorld().point(Vec3d(p));
+    if (!bounds_.occupied().contains(local)) return {};
+    ++counters.densityLookups;
+    const float density = field_.density(local);
+    return {sigmaS_ * density, emission_.at(Vec3d(p), density)};
+  }
+
+  /// From the control densities of the super-voxels.
+  FlightControl flightControl(const Segment& segment) const override {
+    const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
+    if (!line) return {};
+    double depth = 0, rate = 0;
+    line->walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
+      rate = bound.upper > 0 ? static_cast<double>(controlDensity(bound)) : 0;
+      depth += rate * (sExit - sEnter);
+      return true;
+    });
+    // Behind the last of the medium nothing collides.
+    const double slack = kEndSlack * (line->length() + line->tEntry());
+    if (segment.tMax > line->tEntry() + line->length() + slack) rate = 0;
+    return {sigmaT_ * static_cast<float>(depth), sigmaT_ * static_cast<float>(rate)};
+  }
+
+  bool isEmissive() const override { return emission_.isEmissive(); }
+
+  EmissionDistance sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const override {
+    const auto line = emissionLine(segment);
+    if (!line) return {};
+    EmissionSampler sampler(EmissionProfile::kDefensiveShare, rng);
+    emission_.addTo(sampler, *line, sigmaT_);
+    const auto distance = sampler.distance();
+    if (!distance) return {};
+    ++counters.densityLookups;
+    const double t = std::clamp(line->tEntry() + distance->s, segment.tMin, segment.tMax);
+    const Vec3d p = Vec3d(segment.o) + t * Vec3d(segment.d);
+    return {t, distance->pdf, emission_.at(p, line->density(distance->s))};
+  }
+
+  double emissionDistancePdf(const Segment& segment, double t) const override {
+    const auto line = emissionLine(segment);
+    if (!line) return 0;
+    EmissionDensity density(EmissionProfile::kDefensiveShare, t - line->tEntry());
+    emission_.addTo(density, *line, sigmaT_);
+    return density.pdf();
+  }
+
+  std::unique_ptr<const EmissionVolume> emissionVolume(const Bounds3f&) const override {
+    return emission_.volume(bounds_, field_.worldFromLocal());
   }
 
   /// The occupied super-voxels in world space, rounded outward. Empty when the density is 0 everywhere.
@@ -88,9 +164,19 @@ class FieldMedium final : public Medium {
     if (const AnyLaw law = lawOf(estimator_); !std::holds_alternative<ExponentialLaw>(law)) {
       text << " (law " << nameOf(law) << ')';
     }
+    if (samplingPattern_ != PatternKind::Independent)
+      text << " (pattern " << kPatternNames[static_cast<std::size_t>(samplingPattern_)] << ')';
     text << ", sampler " << nameOf(sampler_) << ", " << (sigmaT_.isGrey() ? "1 channel" : "3 channels")
-         << ", " << field_.bytes() + bounds_.bytes() << " bytes";
+         << emission_.describe() << ", " << field_.bytes() + bounds_.bytes() + emission_.bytes() << " bytes";
     return text.str();
+  }
+
+  std::string complaint() const override {
+    if constexpr (requires { field_.complaint(); }) {
+      return field_.complaint();
+    } else {
+      return {};
+    }
   }
 
   const Field& field() const { return field_; }
@@ -100,9 +186,25 @@ class FieldMedium final : public Medium {
   static constexpr float kQuietNaN = std::numeric_limits<float>::quiet_NaN();
   static constexpr Rgb kNaN{kQuietNaN};
 
+  static const SuperVoxels& inForce(const Field& field, const std::optional<SuperVoxels>& own) {
+    if constexpr (requires { field.inForce(); }) {
+      return field.inForce();
+    } else {
+      return *own;
+    }
+  }
+
   static bool hasNaN(const Segment& s) {
     return std::isnan(s.tMin) || std::isnan(s.tMax) || std::isnan(s.o.x + s.o.y + s.o.z) ||
            std::isnan(s.d.x + s.d.y + s.d.z);
+  }
+
+  /// Of a segment's length: rounding of the place where it leaves the medium.
+  static constexpr double kEndSlack = 1e-12;
+
+  std::optional<FieldLine<Field>> emissionLine(const Segment& segment) const {
+    if (!emission_.isEmissive() || hasNaN(segment)) return std::nullopt;
+    return FieldLine<Field>::clip(field_, emission_.cells(bounds_), segment);
   }
 
   template <std::size_t N>
@@ -115,35 +217,64 @@ class FieldMedium final : public Medium {
   }
 
   template <std::size_t N>
-  Rgb estimate(const FieldLine<Field>& line, const Channels<N>& sigmaT, Rng& rng,
+  Rgb estimate(const FieldLine<Field>& line, const Segment& segment, const Channels<N>& sigmaT, Rng& rng,
                RenderCounters& counters) const {
+    if (PixelSample& pixel = rng.pixelSample(); samplingPattern_ != PatternKind::Independent &&
+                                                pixel.index < pixel.count &&
+                                                pixel.count <= std::numeric_limits<std::uint32_t>::max()) {
+      // The n-th estimates of all samples of a pixel share a pattern.
+      const SamplingPattern pattern(samplingPattern_, static_cast<std::uint32_t>(pixel.count),
+                                    hashCombine(pixel.key, pixel.estimates++));
+      SampleStream stream(rng, pattern, static_cast<std::uint32_t>(pixel.index));
+      return estimate(line, segment, sigmaT, stream, counters);
+    }
     SampleStream stream(rng);
-    const Estimate<N> result =
-        std::visit([&](const auto& estimator) { return estimator(line, sigmaT, stream); }, estimator_);
-    result.tally.addTo(counters);
-    return toRgb(result.value);
+    return estimate(line, segment, sigmaT, stream, counters);
   }
 
   template <std::size_t N>
-  FreeFlight fly(const FieldLine<Field>& line, const Channels<N>& sigmaT, Rng& rng,
+  Rgb estimate(const FieldLine<Field>& line, const Segment& segment, const Channels<N>& sigmaT,
+               SampleStream& stream, RenderCounters& counters) const {
+    const Estimate<N> result = std::visit(
+        [&](const auto& estimator) { return estimateOn(estimator, line, sigmaT, stream); }, estimator_);
+    count(line, segment, result.tally, counters);
+    return toRgb(result.value);
+  }
+
+  /// Adds what a segment cost, and notes an example of a violated bound if there is none yet.
+  void count(const FieldLine<Field>& line, const Segment& segment, const LookupTally& tally,
+             RenderCounters& counters) const {
+    tally.addTo(counters);
+    if (tally.violations == 0 || counters.violation) return;
+    const double t = line.tEntry() + tally.worstS;
+    counters.violation =
+        BoundViolation{name(), segment.o, segment.d, t, tally.worstDensity, tally.worstBound};
+  }
+
+  template <std::size_t N>
+  FreeFlight fly(const FieldLine<Field>& line, const Segment& segment, const Channels<N>& sigmaT, Rng& rng,
                  RenderCounters& counters) const {
     Channels<N> albedo;
     for (std::size_t c = 0; c < N; ++c) albedo[c] = static_cast<double>(albedo_[c]);
     const FlightSample<N> result = std::visit(
         [&](const auto& sampler) { return pbrtmedia::fly(sampler, line, sigmaT, albedo, rng); }, sampler_);
-    result.tally.addTo(counters);
+    count(line, segment, result.tally, counters);
     const Rgb weight = toRgb(result.weight);
     if (!result.collided) return {false, 0, weight};
     return {true, line.tEntry() + result.s, weight * albedo_};
   }
 
   Field field_;
-  SuperVoxels bounds_;
+  std::optional<SuperVoxels> ownBounds_;
+  const SuperVoxels& bounds_;  ///< the own ones, or those in force in the field
   std::string_view typeName_;
   Rgb sigmaT_, albedo_;
   AnyEstimator estimator_;
   AnySampler sampler_;
+  PatternKind samplingPattern_;
   std::unique_ptr<PhaseFunction> phase_;
+  Rgb sigmaS_;
+  FieldEmission emission_;
 };
 
 }  // namespace pbrtmedia

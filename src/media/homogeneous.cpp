@@ -7,7 +7,9 @@
 #include <sstream>
 #include <utility>
 
+#include "media/box_emission.h"
 #include "media/coefficients.h"
+#include "media/emission_distance.h"
 
 namespace pbrtmedia {
 namespace {
@@ -23,9 +25,11 @@ HomogeneousMedium::HomogeneousMedium(Params params)
     : Medium(std::move(params.name), params.overlap),
       sigmaS_(params.sigmaS),
       sigmaT_(params.sigmaA + params.sigmaS),
+      emission_(params.sigmaA * params.le),
       phase_(makePhaseFunction(params.phase)),
       grey_(sigmaT_.isGrey()) {
   checkCoefficients(params.sigmaA, params.sigmaS, name());
+  checkEmission(params.le, emission_, name());
 }
 
 Rgb HomogeneousMedium::transmittance(const Segment& segment, Rng&, RenderCounters&) const {
@@ -66,6 +70,43 @@ FreeFlight HomogeneousMedium::sampleFreeFlight(const Segment& segment, Rng& rng,
   return result;
 }
 
+FlightControl HomogeneousMedium::flightControl(const Segment& segment) const {
+  FlightControl control{{}, sigmaT_};
+  for (std::size_t c = 0; c < 3; ++c) {
+    control.depth[c] = static_cast<float>(opticalDepth(sigmaT_[c], segment.length()));
+  }
+  return control;
+}
+
+namespace {
+
+/// One interval: the medium itself.
+template <class Profile>
+void addWhole(Profile& profile, Rgb emission, Rgb sigmaT, double length) {
+  profile.add(0, length, {emission.r, emission.g, emission.b}, {sigmaT.r, sigmaT.g, sigmaT.b});
+}
+
+}  // namespace
+
+EmissionDistance HomogeneousMedium::sampleEmission(const Segment& segment, Rng& rng, RenderCounters&) const {
+  EmissionSampler sampler(0, rng);
+  addWhole(sampler, emission_, sigmaT_, segment.length());
+  const auto distance = sampler.distance();
+  if (!distance) return {};
+  return {segment.tMin + distance->s, distance->pdf, emission_};
+}
+
+double HomogeneousMedium::emissionDistancePdf(const Segment& segment, double t) const {
+  EmissionDensity density(0, t - segment.tMin);
+  addWhole(density, emission_, sigmaT_, segment.length());
+  return density.pdf();
+}
+
+std::unique_ptr<const EmissionVolume> HomogeneousMedium::emissionVolume(const Bounds3f& boundary) const {
+  if (!isEmissive() || boundary.isEmpty()) return nullptr;
+  return BoxEmission::over(boundary, emission_);
+}
+
 Bounds3f HomogeneousMedium::bounds() const {
   return {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 }
@@ -74,6 +115,7 @@ std::string HomogeneousMedium::describe() const {
   std::ostringstream text;
   text << "homogeneous, sigma_t " << sigmaT_ << ", exact transmittance, " << (grey_ ? 1 : 3)
        << (grey_ ? " channel" : " channels") << ", phase function " << phase_->typeName();
+  if (isEmissive()) text << ", emits " << emission_ << " per length";
   return text.str();
 }
 

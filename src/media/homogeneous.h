@@ -23,12 +23,18 @@ class HomogeneousMedium final : public Medium {
   Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
   FreeFlight sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
   const PhaseFunction& phase() const override { return *phase_; }
+  MediumPoint at(Point3f, RenderCounters&) const override { return {sigmaS_, emission_}; }
+  FlightControl flightControl(const Segment& segment) const override;
+  bool isEmissive() const override { return !emission_.isBlack(); }
+  EmissionDistance sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
+  double emissionDistancePdf(const Segment& segment, double t) const override;
+  std::unique_ptr<const EmissionVolume> emissionVolume(const Bounds3f& boundary) const override;
   Bounds3f bounds() const override;
   std::string describe() const override;
   Rgb sigmaT() const { return sigmaT_; }
 
  private:
-  Rgb sigmaS_, sigmaT_;
+  Rgb sigmaS_, sigmaT_, emission_;
   std::unique_ptr<PhaseFunction> phase_;
   bool grey_;
 };

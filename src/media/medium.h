@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,8 @@
 #include "base/rng.h"
 #include "base/segment.h"
 #include "base/statistics.h"
+#include "fields/learned_bounds.h"
+#include "media/emission_volume.h"
 #include "media/phase_function.h"
 #include "spectrum/rgb.h"
 
@@ -20,6 +23,26 @@ struct FreeFlight {
   /// Per channel. Collided: sigma_s(x) T(x) / pdf(t), which carries the albedo. Passed: T / Pr{pass}.
   /// Expectation over both outcomes reproduces the radiative transfer equation; never clamped.
   Rgb weight{1.0f};
+};
+
+/// What there is at one point of a medium, per world length.
+struct MediumPoint {
+  Rgb sigmaS;    ///< scattering coefficient
+  Rgb emission;  ///< sigma_a Le: radiance gained
+};
+
+/// What a segment looks like to the weights of multiple importance sampling, without looking anything up:
+/// exact for a homogeneous medium, else by the bounds. Any deterministic answer keeps estimates unbiased.
+struct FlightControl {
+  Rgb depth;  ///< optical depth of the segment
+  Rgb rate;   ///< extinction at its end, 1/length
+};
+
+/// A point chosen where a segment emits.
+struct EmissionDistance {
+  double t = 0;
+  double pdf = 0;  ///< per length; 0: nothing emits
+  Rgb emission;    ///< MediumPoint::emission there
 };
 
 /// How a medium behaves where others overlap it.
@@ -49,8 +72,37 @@ class Medium {
   /// when the longer one collides beyond it. (Overlapping media rely on it.)
   virtual FreeFlight sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters& counters) const = 0;
   virtual const PhaseFunction& phase() const = 0;
+
+  /// Coefficients at a point.
+  virtual MediumPoint at(Point3f p, RenderCounters& counters) const = 0;
+  virtual FlightControl flightControl(const Segment& segment) const = 0;
+
+  // What emits has these too. A distance with `emissionDistancePdf` positive wherever the segment emits:
+  // emission times transmittance over the density is an unbiased estimate of what the segment sends to its
+  // start.
+  virtual bool isEmissive() const { return false; }
+  virtual EmissionDistance sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const {
+    (void)segment, (void)rng, (void)counters;
+    return {};
+  }
+  virtual double emissionDistancePdf(const Segment& segment, double t) const {
+    (void)segment, (void)t;
+    return 0;
+  }
+  /// For light sampling; null when there is nothing to sample. A medium without an end of its own is sampled
+  /// inside `boundary`.
+  virtual std::unique_ptr<const EmissionVolume> emissionVolume(const Bounds3f& boundary) const {
+    (void)boundary;
+    return nullptr;
+  }
+
   /// Where the density can be positive; infinite for a homogeneous medium.
   virtual Bounds3f bounds() const = 0;
+  /// Bounds that are learned while rendering: whoever renders publishes them between passes. Null for media
+  /// whose bounds stay as they are.
+  virtual LearnedBounds* learnedBounds() { return nullptr; }
+  /// What was wrong with densities so far, for a warning after rendering; empty: nothing.
+  virtual std::string complaint() const { return {}; }
   /// One line for --verbose: field, bounds, estimator, sampler, bytes.
   virtual std::string describe() const = 0;
 

@@ -47,6 +47,8 @@ class WatchedMedium final : public Medium {
     return fog_.sampleFreeFlight(s, rng, counters);
   }
   const PhaseFunction& phase() const override { return fog_.phase(); }
+  MediumPoint at(Point3f p, RenderCounters& counters) const override { return fog_.at(p, counters); }
+  FlightControl flightControl(const Segment& s) const override { return fog_.flightControl(s); }
   Bounds3f bounds() const override { return fog_.bounds(); }
   std::string describe() const override { return "watched"; }
   mutable std::uint64_t segments = 0, leaks = 0;

@@ -21,7 +21,8 @@ using test::SceneKit;
 Rgb throughScene(const Scene& scene, const Ray& ray, RenderCounters& counters, MismatchLog* log = nullptr) {
   const MediaTracker tracker(scene);
   Rng rng(1);
-  return shadowTransmittance(scene, tracker, {ray, {}}, MediumState(), rng, counters, log);
+  MediumState state;
+  return shadowTransmittance(scene, tracker, {ray, {}}, state, rng, counters, log);
 }
 
 /// Two boxes along z: "a" over [0, 2], "b" over [1, 3]; sigma_t 1 and 3.

@@ -102,6 +102,11 @@ inline std::unique_ptr<const LightSelector> uniformSelector(const Scene& scene) 
   return makeLightSelector(LightStrategy::Uniform, scene.lights(), scene.bounds());
 }
 
+inline std::unique_ptr<const LightSelector> uniformSelectorWithMedia(const Scene& scene) {
+  if (scene.lightsWithMedia().empty()) return nullptr;
+  return makeLightSelector(LightStrategy::Uniform, scene.lightsWithMedia(), scene.bounds());
+}
+
 inline std::unique_ptr<Integrator> makePath(const Scene& scene, PathParams params = {}) {
   return std::make_unique<PathIntegrator>(scene, params, uniformSelector(scene));
 }
@@ -110,7 +115,7 @@ inline constexpr Point3f kFarAway{50, 60, 70};
 
 inline std::unique_ptr<Integrator> makeVolPath(const Scene& scene, PathParams params = {},
                                                std::optional<const Medium*> camera = nullptr) {
-  return std::make_unique<VolPathIntegrator>(scene, params, uniformSelector(scene),
+  return std::make_unique<VolPathIntegrator>(scene, params, uniformSelectorWithMedia(scene),
                                              CameraMedium(scene, kFarAway, 0, camera));
 }
 
