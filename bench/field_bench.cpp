@@ -74,18 +74,17 @@ GridField::Params gridParams() {
           GridBorder::Zero};
 }
 
-GridMediumParams mediumParams(int power) {
+GridMediumParams mediumParams() {
   GridMediumParams params;
   params.sigmaA = Rgb(90);
   params.sigmaS = Rgb(10);
-  params.superVoxelPower = power;
   params.grid = gridParams();
   return params;
 }
 
 using GridMedium = FieldMedium<GridField>;
 std::unique_ptr<GridMedium> makeMedium(int power, AnyEstimator estimator = {}) {
-  GridMediumParams params = mediumParams(power);
+  GridMediumParams params = mediumParams();
   params.estimator = estimator;
   GridField field(params.grid, Transform());
   SuperVoxels bounds = field.superVoxels(power);

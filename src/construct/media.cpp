@@ -12,9 +12,12 @@ namespace {
 
 using ReadMedium = std::optional<MediumPlan> (*)(ParamReader&, const MediumDescription&);
 
-constexpr std::array<Plugin<ReadMedium>, 3> kMedia = {{{"homogeneous", readHomogeneousMedium},
+constexpr std::array<Plugin<ReadMedium>, 6> kMedia = {{{"homogeneous", readHomogeneousMedium},
                                                        {"heterogeneous", readHeterogeneousMedium},
-                                                       {"nanovdb", readNanoVdbMedium}}};
+                                                       {"nanovdb", readNanoVdbMedium},
+                                                       {"perlin", readPerlinMedium},
+                                                       {"analytic", readAnalyticMedium},
+                                                       {"texture", readTextureMedium}}};
 
 }  // namespace
 
@@ -34,8 +37,8 @@ std::optional<MediumPlan> readMedium(MediumDescription& medium, Diagnostics& dia
   std::optional<MediumPlan> plan = plugin->read(in, medium);
   in.reportUnused();
   if (!plan) return std::nullopt;
-  return [plan = std::move(*plan), location = medium.location, context] {
-    return builtAt(location, context, plan);
+  return [plan = std::move(*plan), location = medium.location, context](Textures& textures) {
+    return builtAt(location, context, [&] { return plan(textures); });
   };
 }
 

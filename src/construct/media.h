@@ -10,9 +10,12 @@
 
 namespace pbrtmedia {
 
+class Textures;
+
 /// A medium whose parameters are checked; `make` builds the grid and its bounds. Call it once: it takes the
-/// density out of the description. May throw SceneError.
-using MediumPlan = std::function<std::unique_ptr<Medium>()>;
+/// density out of the description. Takes the textures it refers to, which must live as long as the medium.
+/// May throw SceneError.
+using MediumPlan = std::function<std::unique_ptr<Medium>(Textures&)>;
 
 /// Reads a MakeNamedMedium. Nothing for an unknown type or after an error.
 std::optional<MediumPlan> readMedium(MediumDescription& medium, Diagnostics& diagnostics);

@@ -8,7 +8,7 @@ namespace pbrtmedia {
 std::optional<MediumPlan> readHomogeneousMedium(ParamReader& in, const MediumDescription& medium) {
   HomogeneousMedium::Params p;
   readMediumParams(in, medium, p);
-  return [p] { return std::make_unique<HomogeneousMedium>(p); };
+  return [p](Textures&) { return std::make_unique<HomogeneousMedium>(p); };
 }
 
 }  // namespace pbrtmedia

@@ -13,5 +13,8 @@ namespace pbrtmedia {
 std::optional<MediumPlan> readHomogeneousMedium(ParamReader& in, const MediumDescription& medium);
 std::optional<MediumPlan> readHeterogeneousMedium(ParamReader& in, const MediumDescription& medium);
 std::optional<MediumPlan> readNanoVdbMedium(ParamReader& in, const MediumDescription& medium);
+std::optional<MediumPlan> readPerlinMedium(ParamReader& in, const MediumDescription& medium);
+std::optional<MediumPlan> readAnalyticMedium(ParamReader& in, const MediumDescription& medium);
+std::optional<MediumPlan> readTextureMedium(ParamReader& in, const MediumDescription& medium);
 
 }  // namespace pbrtmedia

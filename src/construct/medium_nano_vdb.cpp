@@ -10,7 +10,7 @@ namespace pbrtmedia {
 
 std::optional<MediumPlan> readNanoVdbMedium(ParamReader& in, const MediumDescription& medium) {
   NanoVdbMediumParams p;
-  readFieldMediumParams(in, medium, p);
+  readFieldMediumParams(in, medium, DensityKind::InPieces, p);
   p.field.grid = in.findString("grid", "");
   p.field.map.scale = in.findFloat("densityscale", 1, Range::nonNegative());
   p.field.map.offset = in.findFloat("densityoffset", 0);
@@ -23,7 +23,7 @@ std::optional<MediumPlan> readNanoVdbMedium(ParamReader& in, const MediumDescrip
   // A grid that is not there is told at its name, what is wrong with the file at the file.
   const ParamKind kind = ParamKind::String;
   const SourceLocation named = in.locationOf(kind, in.has(kind, "grid") ? "grid" : "filename");
-  return [p = std::move(p), named, context = in.context(), place = medium.ctm->start] {
+  return [p = std::move(p), named, context = in.context(), place = medium.ctm->start](Textures&) {
     return builtAt(named, context, [&] { return makeNanoVdbMedium(p, place); });
   };
 }

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "construct/freeflight.h"
+#include "construct/medium_bounds.h"
 #include "construct/phase.h"
 #include "construct/transmittance.h"
 #include "media/presets.h"
@@ -46,7 +48,21 @@ void readMediumParams(ParamReader& in, const MediumDescription& medium, MediumPa
   }
 }
 
-void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, FieldMediumParams& p) {
+bool readMediumBox(ParamReader& in, Point3f& p0, Point3f& p1) {
+  p0 = in.findPoint3("p0", p0);
+  p1 = in.findPoint3("p1", p1);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (p0[axis] != p1[axis]) continue;
+    std::string text = "the box is flat: p0 and p1 agree in ";
+    text += "xyz"[axis];
+    in.error(ParamKind::Point3, "p1", text);
+    return false;
+  }
+  return true;
+}
+
+void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, DensityKind kind,
+                           FieldMediumParams& p) {
   readMediumParams(in, medium, p);
   p.estimator = readTransmittance(in, p.estimator);
   if (!std::holds_alternative<ExponentialLaw>(lawOf(p.estimator)) && p.sigmaS.max() > 0) {
@@ -54,6 +70,11 @@ void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, Fie
              "free flights follow the exponential law only: under another one the medium must not scatter "
              "(sigma_s 0)");
   }
+  p.sampler = readFreeFlight(in, p.sampler);
+  p.pattern =
+      static_cast<PatternKind>(in.findChoice("pattern", kPatternNames, static_cast<std::size_t>(p.pattern)));
+  p.bounds = readBounds(in, p.bounds.source);
+  checkPieces(in, p, kind == DensityKind::InPieces);
 }
 
 }  // namespace pbrtmedia

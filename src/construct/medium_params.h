@@ -11,7 +11,14 @@ namespace pbrtmedia {
 /// Reads what every medium has: coefficients (preset, explicit, scale), phase function, overlap rule.
 void readMediumParams(ParamReader& in, const MediumDescription& medium, MediumParams& p);
 
-/// Reads what every medium with a density field has: the above and the ways of tracking.
-void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, FieldMediumParams& p);
+/// Whether a density can be walked from voxel to voxel.
+enum class DensityKind { InPieces, Procedural };
+
+/// Reads what every medium with a density field has: the above, the ways of tracking and the bounds.
+void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, DensityKind kind,
+                           FieldMediumParams& p);
+
+/// Reads the box of a density, "point p0" and "point p1". False after an error: it is flat.
+bool readMediumBox(ParamReader& in, Point3f& p0, Point3f& p1);
 
 }  // namespace pbrtmedia

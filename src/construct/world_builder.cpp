@@ -100,7 +100,7 @@ void WorldBuilder::buildMedia(SceneBuilder& builder) {
     if (!mediumPlans_[i]) continue;  // an unknown type with --lenient: vacuum, as in PBRT-v3
     usesMedia_ = true;
     if (!withMedia_) continue;
-    media_[i] = builder.own((*mediumPlans_[i])());
+    media_[i] = builder.addMedium((*mediumPlans_[i])(textures_));
     report_.push_back("medium \"" + scene_.media[i].name + "\": " + media_[i]->describe());
   }
 }

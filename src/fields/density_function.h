@@ -21,6 +21,8 @@ class DensityFunction {
   virtual std::optional<Interval> range(const Bounds3d& box) const = 0;
   /// A few words for --verbose.
   virtual std::string describe() const = 0;
+  /// What was wrong with values so far, for a warning; empty: nothing.
+  virtual std::string complaint() const { return {}; }
 };
 
 }  // namespace pbrtmedia

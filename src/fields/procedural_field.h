@@ -49,6 +49,7 @@ class ProceduralField {
   std::optional<SuperVoxels> superVoxels() const { return superVoxels(lattice({})); }
   static constexpr int kHalvings = 1;
   std::string describe() const;
+  std::string complaint() const { return params_.function->complaint(); }
   std::size_t bytes() const { return 0; }
 
  private:

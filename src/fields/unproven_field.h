@@ -51,6 +51,13 @@ class UnprovenField {
   std::string describe() const {
     return field_.describe() + (learned_ ? ", bounds learned" : ", bounds given");
   }
+  std::string complaint() const {
+    if constexpr (requires { field_.complaint(); }) {
+      return field_.complaint();
+    } else {
+      return {};
+    }
+  }
   std::size_t bytes() const { return field_.bytes() + (learned_ ? learned_->bytesOfProposals() : 0); }
 
  private:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <mutex>
 #include <tuple>
+#include <utility>
 
 #include "base/hash.h"
 #include "base/parallel.h"
@@ -14,6 +15,8 @@ namespace {
 
 /// Memory of one pass at most, bytes.
 constexpr std::size_t kPassBytes = std::size_t{64} << 20;
+/// "ptrn" in ASCII: the same for patterns across the samples of a pixel.
+constexpr std::uint64_t kPatternTag = 0x7074726e;
 /// "path" in ASCII: keeps the Rng of samples apart from other uses of the same seed.
 constexpr std::uint64_t kRngTag = 0x70617468;
 constexpr double kProgressInterval = 0.1;  // seconds
@@ -25,6 +28,7 @@ struct Tile {
   std::uint64_t samples = 0;
   std::vector<DroppedSample> dropped;
   std::vector<MediumMismatch> mismatches;
+  std::vector<ViolationRecord> violations;
   bool complete = false;
 };
 
@@ -32,7 +36,7 @@ std::vector<Tile> tilesOf(Bounds2i bounds, int size) {
   std::vector<Tile> tiles;
   for (int y = bounds.min.y; y < bounds.max.y; y += size) {
     for (int x = bounds.min.x; x < bounds.max.x; x += size) {
-      tiles.push_back({intersect(Bounds2i{{x, y}, {x + size, y + size}}, bounds), {}, 0, {}, {}, false});
+      tiles.push_back({intersect(Bounds2i{{x, y}, {x + size, y + size}}, bounds), {}, 0, {}, {}, {}, false});
     }
   }
   return tiles;
@@ -67,6 +71,7 @@ class RenderLoop {
         bounds_(film.sampleBounds()),
         samplesPerPixel_(options.samplesPerPixel.value_or(sampler.samplesPerPixel())) {
     if (options.pixelBounds) bounds_ = intersect(bounds_, *options.pixelBounds);
+    for (const Medium* learner : options.learners) result_.learning.push_back({learner->name(), {}});
   }
 
   RenderResult run() {
@@ -93,6 +98,7 @@ class RenderLoop {
   /// Where the render may be stopped early the first passes are small, so that the whole film gets samples
   /// soon.
   std::int64_t passSize(int pass) const {
+    if (!options_.learners.empty()) return 1;
     if (options_.samplesPerPass) return std::max(1, *options_.samplesPerPass);
     const auto perSample = static_cast<std::size_t>(film_.sampleBounds().area()) * sizeof(SamplePass::Sample);
     const auto byMemory = static_cast<std::int64_t>(std::max<std::size_t>(1, kPassBytes / perSample));
@@ -124,8 +130,18 @@ class RenderLoop {
       result_.counters.add(tile.counters);
       mergeRecords(result_.dropped, tile.dropped, options_.maxRecords);
       mergeRecords(result_.mismatches, tile.mismatches, options_.maxRecords);
+      mergeRecords(result_.violations, tile.violations, options_.maxRecords);
     }
+    publishLearned();
     return complete;
+  }
+
+  void publishLearned() {
+    for (std::size_t i = 0; i < options_.learners.size(); ++i) {
+      LearnedBounds& bounds = *options_.learners[i]->learnedBounds();
+      bounds.publish();
+      result_.learning[i].passes.push_back(bounds.progress());
+    }
   }
 
   void renderTile(Tile& tile, SamplePass& pass, std::int64_t first, int count) {
@@ -147,9 +163,15 @@ class RenderLoop {
     MismatchLog log{
         pixel, index, options_.maxRecords - std::min(options_.maxRecords, tile.mismatches.size()), {}};
     Point2f film;
+    tile.counters.violation.reset();
     Rgb radiance = renderSample(camera_, sampler, integrator_, pixel, index, samplesPerPixel_, options_.seed,
                                 tile.counters, &log, &film);
     tile.mismatches.insert(tile.mismatches.end(), log.entries.begin(), log.entries.end());
+    if (tile.counters.violation && tile.violations.size() < options_.maxRecords) {
+      ViolationRecord record{pixel, index, *tile.counters.violation, {}};
+      record.medium = std::exchange(record.violation.medium, {});
+      tile.violations.push_back(std::move(record));
+    }
     const RenderCounters before = tile.counters;
     if (!film_.admit(radiance, tile.counters)) {
       if (tile.dropped.size() < options_.maxRecords) {
@@ -207,6 +229,10 @@ Rgb renderSample(const Camera& camera, Sampler& sampler, const Integrator& integ
                                   std::sqrt(static_cast<float>(std::max<std::int64_t>(samplesPerPixel, 1))));
   Rng rng(hashCombine(seed, static_cast<std::uint32_t>(pixel.x), static_cast<std::uint32_t>(pixel.y),
                       static_cast<std::uint64_t>(sample), kRngTag));
+  rng.pixelSample() = {hashCombine(seed, static_cast<std::uint32_t>(pixel.x),
+                                   static_cast<std::uint32_t>(pixel.y), kPatternTag),
+                       static_cast<std::uint64_t>(sample),
+                       static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel, 0)), 0};
   SampleContext context{sampler, rng, counters, mismatches};
   return weighted.weight * integrator.radiance(weighted.ray, context);
 }

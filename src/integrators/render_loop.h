@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cameras/camera.h"
@@ -36,7 +37,11 @@ struct RenderOptions {
   std::function<bool(const RenderProgress&)> afterPass{};
   /// Called about ten times a second, from any one thread at a time.
   std::function<void(const RenderProgress&)> progress{};
-  std::size_t maxRecords = 16;  ///< dropped samples and mismatches that are kept
+  std::size_t maxRecords = 16;  ///< dropped samples, violations and mismatches that are kept
+  /// Media whose bounds are learned (Medium::learnedBounds). If there are any, every pass takes one sample of
+  /// each pixel, whatever samplesPerPass says, and publishes what it learned: so pass k sees the same bounds
+  /// for any threads and tiles.
+  std::vector<Medium*> learners{};
 };
 
 /// A sample that was kept off the film: enough to replay it.
@@ -47,20 +52,37 @@ struct DroppedSample {
   bool operator==(const DroppedSample&) const = default;
 };
 
+/// A density above its bound: enough to replay it.
+struct ViolationRecord {
+  Point2i pixel;
+  std::int64_t sample = 0;
+  BoundViolation violation;  ///< the first of the sample; its segment's worst. `medium` is not set
+  std::string medium;
+};
+
+/// How the bounds of one medium were learned.
+struct LearningRecord {
+  std::string medium;
+  std::vector<LearningProgress> passes;  ///< after each publication
+};
+
 struct RenderResult {
   std::uint64_t samplesTaken = 0, samplesTotal = 0;
   std::int64_t completedSamplesPerPixel = 0;  ///< sample indices below it are taken in every pixel
   RenderCounters counters;
   double seconds = 0;
   bool interrupted = false;  ///< stopped before the last sample
-  /// The first in order of pixel (row by row), then sample; both at most RenderOptions::maxRecords.
+  /// The first in order of pixel (row by row), then sample; each at most RenderOptions::maxRecords.
   std::vector<DroppedSample> dropped;
   std::vector<MediumMismatch> mismatches;
+  std::vector<ViolationRecord> violations;
+  std::vector<LearningRecord> learning;  ///< one for each of RenderOptions::learners
 };
 
 /// Takes the samples of an image and accumulates them on the film, in passes over the film. Every sample is a
-/// pure function of (seed, pixel, sample index): image, counters and records are the same for any number of
-/// threads, tile size and grouping into passes. Stopped early (time, flag, callback) it leaves the film with
+/// pure function of (seed, pixel, sample index), and of the passes before where bounds are learned: image,
+/// counters and records are the same for any number of threads, tile size and grouping into passes. Stopped
+/// early (time, flag, callback) it leaves the film with
 /// exactly the samples that were taken.
 RenderResult renderFilm(const Camera& camera, const Sampler& sampler, const Integrator& integrator,
                         Film& film, const RenderOptions& options);

@@ -16,9 +16,10 @@ namespace {
 
 // Words that PBRT-v3 accepts with one dash as well.
 constexpr std::string_view kLongNames[] = {
-    "nthreads",    "outfile",     "cropwindow", "quick",   "quiet",     "cat",       "toply",      "logdir",
-    "logtostderr", "minloglevel", "v",          "help",    "spp",       "seed",      "stats",      "progress",
-    "time",        "strict",      "lenient",    "verbose", "tile-size", "pixeltype", "compression"};
+    "nthreads",  "outfile",     "cropwindow",   "quick",       "quiet",   "cat",     "toply",
+    "logdir",    "logtostderr", "minloglevel",  "v",           "help",    "spp",     "seed",
+    "stats",     "progress",    "time",         "strict",      "lenient", "verbose", "tile-size",
+    "pixeltype", "compression", "bounds-cache", "mediumparams"};
 
 /// "-quick" and "-nthreads=2" become "--quick" and "--nthreads=2"; numbers and file names stay.
 std::string normalised(const std::string& word) {
@@ -51,7 +52,7 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
 
   std::vector<std::string> scenes;
   std::vector<float> crop;
-  std::string outfile, stats, progress = "auto", logDirectory;
+  std::string outfile, stats, boundsCache, progress = "auto", logDirectory;
   int minLogLevel = 0, verbosity = 0;
   bool logToStderr = false;
 
@@ -83,6 +84,16 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
                  "edge of the square of pixels one thread takes (default 16)")
       ->check(CLI::Range(1, 4096))
       ->type_name("PIXELS")
+      ->group(render);
+
+  app.add_option("--mediumparams", options.mediumParams,
+                 "parameters for every medium with a density field, as they stand in a scene: '\"string "
+                 "transmittance\" \"regular\"'; they replace those of the scene")
+      ->type_name("LIST")
+      ->group(render);
+  app.add_option("--bounds-cache", boundsCache,
+                 "start progressive bounds of media from this file if it exists, and write it in the end")
+      ->type_name("FILE")
       ->group(render);
 
   const std::map<std::string, PixelType> pixelTypes = {{"half", PixelType::Half},
@@ -155,6 +166,7 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
   if (options.scenes.empty()) options.scenes.emplace_back("-");
   if (!outfile.empty()) options.outfile = outfile;
   if (!stats.empty()) options.statsFile = stats;
+  if (!boundsCache.empty()) options.boundsCache = boundsCache;
   if (!crop.empty()) {
     std::array<float, 4> window{};
     std::copy(crop.begin(), crop.end(), window.begin());

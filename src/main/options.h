@@ -31,6 +31,8 @@ struct Options {
   std::uint64_t seed = 0;
   std::optional<std::filesystem::path> statsFile;
   ProgressMode progress = ProgressMode::Auto;
+  std::optional<std::filesystem::path> boundsCache;
+  std::string mediumParams;         ///< parameter list for the media with a density field; "": none
   std::optional<double> timeLimit;  ///< seconds of rendering
   int tileSize = 16;
   WriteOptions write;       ///< how EXR files are stored

@@ -12,10 +12,12 @@
 #include "construct/construct.h"
 #include "image/image.h"
 #include "integrators/render_loop.h"
+#include "main/kept_bounds.h"
 #include "main/progress.h"
 #include "main/statistics_report.h"
 #include "main/version.h"
 #include "main/warnings.h"
+#include "scene/param_text.h"
 #include "scene/parser.h"
 #include "scene/print.h"
 
@@ -88,6 +90,7 @@ RenderResult renderImage(const Construction& scene, const Options& options, cons
   loop.tileSize = options.tileSize;
   loop.pixelBounds = scene.pixelBounds;
   loop.stop = &stop.flag();
+  loop.learners = learnersOf(*scene.scene);
   if (options.timeLimit) loop.timeLimit = *options.timeLimit;
   ProgressLine line(options.progress, options.quiet, scene.outfile.filename().string());
   loop.progress = [&](const RenderProgress& p) {
@@ -99,17 +102,24 @@ RenderResult renderImage(const Construction& scene, const Options& options, cons
   return result;
 }
 
-/// Finds out before hours of rendering that the statistics could not be written.
-void requireFolderOf(const std::filesystem::path& file) {
+/// Finds out before hours of rendering that a file could not be written in the end.
+void requireFolderOf(const std::string& option, const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::error_code ignored;
   if (std::filesystem::is_directory(folder, ignored)) return;
-  throw SceneError({}, "--stats " + file.string() + ": folder \"" + folder.string() + "\" does not exist");
+  throw SceneError({}, option + ' ' + file.string() + ": folder \"" + folder.string() + "\" does not exist");
+}
+
+/// What a cache calls the world: names of files without folders, and its number among their worlds.
+std::string worldName(const Options& options, std::size_t number) {
+  std::string name;
+  for (const auto& scene : options.scenes) name += scene.filename().string() + ' ';
+  return name + '#' + std::to_string(number);
 }
 
 /// One world: build, render, write. Sets `status` and returns the numbers.
-RenderStatistics renderWorld(SceneDescription& description, const Options& options,
-                             const PhaseTime& parseTime, int& status) {
+RenderStatistics renderWorld(SceneDescription& description, const std::string& name, const Options& options,
+                             const PhaseTime& parseTime, KeptBounds& bounds, int& status) {
   RenderStatistics statistics;
   statistics.scene = sceneNames(options);
   statistics.seed = options.seed;
@@ -119,11 +129,18 @@ RenderStatistics renderWorld(SceneDescription& description, const Options& optio
   const Stopwatch constructing;
   Diagnostics diagnostics;
   diagnostics.lenient = options.lenient;
-  const ConstructOptions build{.outfile = options.outfile,
-                               .cropWindow = options.cropWindow,
-                               .quick = options.quick,
-                               .samplesPerPixel = options.samplesPerPixel,
-                               .seed = options.seed};
+  const ConstructOptions build{
+      .outfile = options.outfile,
+      .cropWindow = options.cropWindow,
+      .quick = options.quick,
+      .samplesPerPixel = options.samplesPerPixel,
+      .seed = options.seed,
+      .mediumParams = parseParams(options.mediumParams, "--mediumparams", diagnostics)};
+  if (diagnostics.hasErrors()) {
+    show(diagnostics, options.quiet);
+    status = kExitBadInput;
+    return statistics;
+  }
   const std::uint64_t sceneHash = description.textHash;
   std::optional<Construction> scene = construct(description, build, diagnostics);
   show(diagnostics, options.quiet);
@@ -139,6 +156,9 @@ RenderStatistics renderWorld(SceneDescription& description, const Options& optio
     for (const std::string& line : scene->report) std::cerr << "  " << line << '\n';
   }
 
+  const std::string boundsWarnings = bounds.restore(name, *scene->scene);
+  if (!options.quiet) std::cerr << boundsWarnings;
+
   const StopSignal stop("\nstopping; the image so far will be written (again to end at once)\n");
   const Stopwatch rendering;
   const RenderResult result = renderImage(*scene, options, stop);
@@ -147,14 +167,17 @@ RenderStatistics renderWorld(SceneDescription& description, const Options& optio
   statistics.samplesPlanned = static_cast<std::int64_t>(result.samplesTotal);
   statistics.interrupted = result.interrupted;
   statistics.counters = result.counters;
+  statistics.learning = result.learning;
 
   const Stopwatch writing;
   writeImage(scene->outfile, withHeader(scene->film->develop(), statistics, options, sceneHash),
              options.write);
+  bounds.save(name, *scene->scene);
   statistics.write = writing.elapsed();
   statistics.peakMemory = peakMemoryBytes();
 
   std::cerr << describeFaults(result, options);
+  if (!options.quiet) std::cerr << describeComplaints(*scene->scene);
   if (!options.quiet) std::cerr << formatStatistics(statistics);
   if (options.strict && (result.counters.droppedTotal() > 0 || result.counters.boundViolations > 0))
     status = kExitStrict;
@@ -165,7 +188,8 @@ RenderStatistics renderWorld(SceneDescription& description, const Options& optio
 
 int runPbrt(const Options& options) {
   if (options.cat || options.toPly) return printScenes(options);
-  if (options.statsFile) requireFolderOf(*options.statsFile);
+  if (options.statsFile) requireFolderOf("--stats", *options.statsFile);
+  if (options.boundsCache) requireFolderOf("--bounds-cache", *options.boundsCache);
   const ThreadLimit threads(options.threads);
 
   const Stopwatch parsing;
@@ -179,10 +203,12 @@ int runPbrt(const Options& options) {
   show(diagnostics, options.quiet);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
+  KeptBounds bounds(options.boundsCache);
   int status = 0;
   std::vector<RenderStatistics> all;
   for (SceneDescription& world : worlds) {
-    all.push_back(renderWorld(world, options, all.empty() ? parseTime : PhaseTime{}, status));
+    all.push_back(renderWorld(world, worldName(options, all.size()), options,
+                              all.empty() ? parseTime : PhaseTime{}, bounds, status));
     if (status == kExitBadInput || all.back().interrupted) break;
   }
   if (options.statsFile && status != kExitBadInput) writeStatistics(*options.statsFile, all);

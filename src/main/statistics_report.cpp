@@ -37,6 +37,31 @@ nlohmann::ordered_json toJson(const RenderCounters& c) {
           {"droppedSamples", dropped}};
 }
 
+/// Share of the cells looked up in so far whose bound the pass found to hold.
+double boundingShare(const LearningProgress& p) {
+  return p.visited > 0 ? 1 - static_cast<double>(p.raised) / static_cast<double>(p.visited) : 1;
+}
+
+nlohmann::ordered_json toJson(const LearningRecord& record) {
+  nlohmann::ordered_json passes = nlohmann::ordered_json::array();
+  for (const LearningProgress& p : record.passes) {
+    passes.push_back({{"visitedCells", p.visited},
+                      {"raisedCells", p.raised},
+                      {"boundingShare", boundingShare(p)},
+                      {"violations", p.cut},
+                      {"largestBound", p.maximum}});
+  }
+  return {{"medium", record.medium},
+          {"cells", record.passes.empty() ? 0 : record.passes.back().cells},
+          {"passes", passes}};
+}
+
+nlohmann::ordered_json toJson(const std::vector<LearningRecord>& records) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const LearningRecord& record : records) all.push_back(toJson(record));
+  return all;
+}
+
 nlohmann::ordered_json toJson(const RenderStatistics& s) {
   return {{"scene", s.scene},
           {"outfile", s.outfile},
@@ -52,6 +77,7 @@ nlohmann::ordered_json toJson(const RenderStatistics& s) {
             {"render", toJson(s.render)},
             {"write", toJson(s.write)}}},
           {"counters", toJson(s.counters)},
+          {"learnedBounds", toJson(s.learning)},
           {"peakMemoryBytes", s.peakMemory}};
 }
 
@@ -81,6 +107,13 @@ std::string formatStatistics(const RenderStatistics& s) {
        << perSample(c.densityLookups, s) << " per sample), "
        << formatCount(static_cast<double>(c.nullCollisions)) << " null collisions, "
        << formatCount(static_cast<double>(c.mediumScatterings)) << " scatterings\n";
+  }
+  for (const LearningRecord& record : s.learning) {
+    if (record.passes.empty()) continue;
+    const LearningProgress& last = record.passes.back();
+    os << "  bounds    \"" << record.medium << "\": " << last.visited << " of " << last.cells
+       << " super-voxels visited, " << 100 * boundingShare(last) << " % of them bounding in the last pass, "
+       << last.cut << " lookups cut\n";
   }
   os << "  memory    " << formatCount(static_cast<double>(s.peakMemory)) << "B at most\n";
   return os.str();

@@ -8,6 +8,7 @@
 
 #include "base/statistics.h"
 #include "base/stopwatch.h"
+#include "integrators/render_loop.h"
 
 namespace pbrtmedia {
 
@@ -23,7 +24,8 @@ struct RenderStatistics {
   bool interrupted = false;
   PhaseTime parse, construct, render, write;
   RenderCounters counters;
-  std::size_t peakMemory = 0;  ///< bytes
+  std::vector<LearningRecord> learning;  ///< of media with progressive bounds
+  std::size_t peakMemory = 0;            ///< bytes
 };
 
 /// The numbers as text for people: a few lines, most telling first.

@@ -33,6 +33,12 @@ std::string describeFaults(const RenderResult& result, const Options& options) {
   if (c.boundViolations > 0) {
     os << "pbrt: WARNING: " << c.boundViolations
        << " density lookups exceeded their bound, the worst by a factor of " << c.worstBoundRatio << ".\n";
+    for (const ViolationRecord& v : result.violations) {
+      os << "  pixel " << v.pixel.x << ' ' << v.pixel.y << ", sample " << v.sample << ", seed "
+         << options.seed << ": medium \"" << v.medium << "\" has density " << v.violation.density
+         << " above its bound " << v.violation.bound << " at t = " << v.violation.t << " of the ray from "
+         << v.violation.o << " along " << v.violation.d << '\n';
+    }
   }
   if (c.cappedEstimates > 0 && !options.quiet) {
     os << "pbrt: warning: " << c.cappedEstimates
@@ -46,6 +52,20 @@ std::string describeFaults(const RenderResult& result, const Options& options) {
     for (const MediumMismatch& m : result.mismatches) os << "  " << m.toString() << '\n';
   }
   return os.str();
+}
+
+std::string describeComplaints(const Scene& scene) {
+  std::string text;
+  for (const Medium* medium : scene.media()) {
+    const std::string complaint = medium->complaint();
+    if (complaint.empty()) continue;
+    text += "pbrt: warning: medium \"";
+    text += medium->name();
+    text += "\": ";
+    text += complaint;
+    text += ".\n";
+  }
+  return text;
 }
 
 }  // namespace pbrtmedia

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "integrators/render_loop.h"
+#include "integrators/scene.h"
 #include "main/options.h"
 
 namespace pbrtmedia {
@@ -12,5 +13,8 @@ namespace pbrtmedia {
 /// of them (pixel, sample, seed), violated density bounds, boundaries that contradict each other. Empty when
 /// all was well.
 std::string describeFaults(const RenderResult& result, const Options& options);
+
+/// What was wrong with the densities of media, a warning each. Empty when nothing was.
+std::string describeComplaints(const Scene& scene);
 
 }  // namespace pbrtmedia

@@ -12,11 +12,9 @@
 namespace pbrtmedia {
 
 /// A medium on a density grid: PBRT-v3's "heterogeneous". Equal sigma_t in R, G, B runs one channel, others
-/// three. Throws SceneError (location unknown) for bad parameters. `superVoxelPower`: bounds over 2^power
-/// samples per axis.
+/// three. Throws SceneError (location unknown) for bad parameters.
 struct GridMediumParams : FieldMediumParams {
   GridField::Params grid;
-  int superVoxelPower = GridField::kDefaultSuperVoxelPower;
 };
 std::unique_ptr<Medium> makeGridMedium(const GridMediumParams& params, const Transform& worldFromMedium);
 

@@ -241,9 +241,6 @@ TEST(GridMedium, RefusesBadParameters) {
   params.grid = grid;
   params.phase = {{PhaseLobe::Kind::HenyeyGreenstein, -1, 1}};
   EXPECT_THROW(makeGridMedium(params, Transform()), SceneError);
-  params.phase = {PhaseLobe{}};
-  params.superVoxelPower = 99;
-  EXPECT_THROW(makeGridMedium(params, Transform()), SceneError);
 }
 
 TEST(GridMedium, DescribesItselfInOneLine) {

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "media/unproven_medium.h"
+#include "media/unproven_medium_body.h"
+
+namespace pbrtmedia {
+
+std::unique_ptr<Medium> makeUnprovenMedium(const FieldMediumParams& params, std::string_view typeName,
+                                           NanoVdbField field,
+                                           std::unique_ptr<const EmissionPattern> pattern) {
+  return unprovenMedium(params, typeName, std::move(field), std::move(pattern));
+}
+
+}  // namespace pbrtmedia
