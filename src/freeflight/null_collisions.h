@@ -7,8 +7,8 @@
 #include "base/rng.h"
 #include "fields/density_line.h"
 #include "freeflight/flight_sample.h"
+#include "transmittance/bounded_lookup.h"
 #include "transmittance/channel_shares.h"
-#include "transmittance/probe.h"
 
 namespace pbrtmedia {
 
@@ -27,7 +27,7 @@ FlightSample<N> flyWithNullCollisions(const Line& line, const Channels<N>& sigma
   double depth = rng.exponential();  // optical depth of the majorant to the next tentative collision
   line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
     if (!(bound.upper > 0)) {
-      if constexpr (!Line::kProvenBounds) probeEmpty(line, sEnter, sExit, rng, flight.tally);
+      probeTrusted(line, sEnter, sExit, 0, rng, flight.tally);
       return true;
     }
     const double rate = sigmaMax * rateOf(bound), inverse = 1 / rate;
@@ -55,11 +55,7 @@ FlightSample<N> flyWithNullCollisions(const Line& line, const Channels<N>& sigma
 /// Looks up the density at a tentative collision and counts what it finds.
 template <DensityLine Line, std::size_t N>
 double lookUpAt(const Line& line, double s, const SuperVoxel& bound, FlightSample<N>& flight) {
-  const float density = line.density(s);
-  ++flight.tally.lookups;
-  if (density > bound.upper)
-    flight.tally.noteViolation(s, static_cast<double>(density), static_cast<double>(bound.upper));
-  return static_cast<double>(density);
+  return boundedLookup(line, s, bound.upper, flight.tally);
 }
 
 /// Chooses real or null for a density under a bound `upper`, in units of the largest channel's sigma_t: real

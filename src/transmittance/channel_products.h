@@ -41,6 +41,14 @@ class ChannelProducts {
   void addTo(Channels<N>& sum, double x, double factor = 1) const {
     for (std::size_t c = 0; c < N; ++c) addTerm(sum[c], products_[c].timesExp(x) * factor);
   }
+  /// The products times exp(-sigmaT[c] column): 0 where a product is, however large the rest.
+  Channels<N> attenuated(const Channels<N>& sigmaT, double column) const {
+    Channels<N> value;
+    for (std::size_t c = 0; c < N; ++c) {
+      value[c] = products_[c].isZero() ? 0 : products_[c].timesExp(-sigmaT[c] * column);
+    }
+    return value;
+  }
   const RunningProduct& operator[](std::size_t c) const { return products_[c]; }
 
  private:

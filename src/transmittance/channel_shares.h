@@ -16,4 +16,12 @@ constexpr Channels<N> sharesOf(const Channels<N>& channels, double whole) {
   return shares;
 }
 
+/// What is null at a point whose extinction in the largest channel is `ratio` times that of the control.
+template <std::size_t N>
+constexpr Channels<N> nullShares(const Channels<N>& shares, double ratio) {
+  Channels<N> null{};
+  for (std::size_t c = 0; c < N; ++c) null[c] = 1 - shares[c] * ratio;
+  return null;
+}
+
 }  // namespace pbrtmedia

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -11,7 +10,6 @@
 #include "transmittance/comb.h"
 #include "transmittance/estimate.h"
 #include "transmittance/law.h"
-#include "transmittance/lookup_limit.h"
 #include "transmittance/nested_march.h"
 #include "transmittance/parameters.h"
 #include "transmittance/sample_stream.h"
@@ -57,26 +55,18 @@ struct DebiasedRayMarching {
                       Parameter{"maxlookups", &D::maxLookups, L::kLimitHelp, 0}};
   }
   EstimatorTraits traits() const {
-    const bool finite = TelescopingLevels::hasFiniteVariance(comb, rate, law);
-    return {.summary = "the law at a coarse march, plus one random level of the corrections by refinement",
-            .source = "Misso et al. 2022 (14), (22); Blanchet & Glynn 2015",
-            .useWhen = "the law is not exponential, or the medium is thin or smooth; bounds are not needed",
-            .bias = LookupLimit::bias(maxLookups),
-            .biasNote = LookupLimit::biasNote(maxLookups),
-            .mayLeaveUnitInterval = true,
-            .control = EstimatorTraits::Control::Unused,
-            .finiteVariance = finite,
-            .finiteVarianceUnbounded = finite,
-            .boundedCost = maxLookups > 0,
-            .laws = LawSet::all()};
+    EstimatorTraits traits = TelescopingLevels::traits(comb, rate, law, maxLookups);
+    traits.summary = "the law at a coarse march, plus one random level of the corrections by refinement";
+    traits.source = "Misso et al. 2022 (14), (22); Blanchet & Glynn 2015";
+    traits.useWhen = "the law is not exponential, or the medium is thin or smooth; bounds are not needed";
+    return traits;
   }
 
   template <DensityLine Line, std::size_t N>
   Estimate<N> operator()(const Line& line, const Channels<N>& sigmaT, SampleStream& stream) const {
     Estimate<N> estimate;
     if (!(maxOf(sigmaT) > 0) || isVacuum(line, stream.rng(), estimate.tally)) return estimate;
-    std::uint64_t teeth = n << levels;
-    if (maxLookups > 0) teeth = std::min(teeth, maxLookups);
+    const std::uint64_t teeth = TelescopingLevels::baseTeeth(n, levels, maxLookups);
     const TelescopingLevels all(teeth, rate, maxLookups, reuse ? 0 : teeth);
     const unsigned level = all.draw(stream.uniformAboveZero());
     const auto add = [&](double column, double factor) {

@@ -66,13 +66,9 @@ struct PSeriesResidual {
       const double ratio =
           (boundedLookup(line, s, piece->upper, tally) - piece->lower) / (piece->upper - piece->lower);
       ++tally.nullCollisions;
-      Channels<N> factor;
-      for (std::size_t c = 0; c < N; ++c) factor[c] = 1 - share[c] * ratio;
-      weight.multiply(factor);
+      weight.multiply(nullShares(share, ratio));
     }
-    for (std::size_t c = 0; c < N; ++c) {
-      estimate.value[c] = weight[c].isZero() ? 0 : weight[c].timesExp(-sigmaT[c] * profile.lower());
-    }
+    estimate.value = weight.attenuated(sigmaT, profile.lower());
     return estimate;
   }
 };

@@ -12,7 +12,6 @@
 #include "transmittance/comb.h"
 #include "transmittance/estimate.h"
 #include "transmittance/law.h"
-#include "transmittance/lookup_limit.h"
 #include "transmittance/nested_march.h"
 #include "transmittance/parameters.h"
 #include "transmittance/sample_stream.h"
@@ -54,26 +53,18 @@ struct PrefixDebiasedRayMarching {
                       Parameter{"maxlookups", &P::maxLookups, L::kLimitHelp, 0}};
   }
   EstimatorTraits traits() const {
-    const bool finite = TelescopingLevels::hasFiniteVariance(comb, rate, law);
-    return {.summary = "the law at a coarse march, plus all corrections by refinement up to a random level",
-            .source = "Misso et al. 2022 (15), (22)",
-            .useWhen = "as debiased-ray-marching, where corrections of several levels matter",
-            .bias = LookupLimit::bias(maxLookups),
-            .biasNote = LookupLimit::biasNote(maxLookups),
-            .mayLeaveUnitInterval = true,
-            .control = EstimatorTraits::Control::Unused,
-            .finiteVariance = finite,
-            .finiteVarianceUnbounded = finite,
-            .boundedCost = maxLookups > 0,
-            .laws = LawSet::all()};
+    EstimatorTraits traits = TelescopingLevels::traits(comb, rate, law, maxLookups);
+    traits.summary = "the law at a coarse march, plus all corrections by refinement up to a random level";
+    traits.source = "Misso et al. 2022 (15), (22)";
+    traits.useWhen = "as debiased-ray-marching, where corrections of several levels matter";
+    return traits;
   }
 
   template <DensityLine Line, std::size_t N>
   Estimate<N> operator()(const Line& line, const Channels<N>& sigmaT, SampleStream& stream) const {
     Estimate<N> estimate;
     if (!(maxOf(sigmaT) > 0) || isVacuum(line, stream.rng(), estimate.tally)) return estimate;
-    std::uint64_t teeth = n << levels;
-    if (maxLookups > 0) teeth = std::min(teeth, maxLookups);
+    const std::uint64_t teeth = TelescopingLevels::baseTeeth(n, levels, maxLookups);
     const TelescopingLevels all(teeth, rate, maxLookups, 0);
     const unsigned level = all.draw(stream.uniformAboveZero());
     if (level >= all.count()) estimate.tally.capped = 1;

@@ -8,10 +8,11 @@
 #include <tuple>
 
 #include "fields/density_line.h"
+#include "transmittance/bounded_lookup.h"
+#include "transmittance/channel_shares.h"
 #include "transmittance/estimate.h"
 #include "transmittance/lookup_limit.h"
 #include "transmittance/parameters.h"
-#include "transmittance/probe.h"
 #include "transmittance/sample_stream.h"
 #include "transmittance/traits.h"
 
@@ -57,15 +58,14 @@ struct RatioTracking {
     Estimate<N> estimate;
     const double sigmaMax = maxOf(sigmaT);
     if (!(sigmaMax > 0)) return estimate;
-    Channels<N> share;  // of the largest channel
-    for (std::size_t c = 0; c < N; ++c) share[c] = sigmaT[c] / sigmaMax;
+    const Channels<N> share = sharesOf(sigmaT, sigmaMax);
     Channels<N>& weight = estimate.value;
     LookupTally& tally = estimate.tally;
     const LookupLimit limit(maxLookups);
     double depth = stream.exponential();  // optical depth of the majorant to the next tentative collision
     line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
       if (!(bound.upper > 0)) {
-        if constexpr (!Line::kProvenBounds) probeEmpty(line, sEnter, sExit, stream.rng(), tally);
+        probeTrusted(line, sEnter, sExit, 0, stream.rng(), tally);
         return true;
       }
       const double majorant = sigmaMax * static_cast<double>(bound.upper), inverse = 1 / majorant;
@@ -78,12 +78,9 @@ struct RatioTracking {
         }
         if (limit.reached(tally)) return false;
         s += depth * inverse;
-        const float density = line.density(s);
-        ++tally.lookups;
+        const Channels<N> null = nullShares(share, boundedLookup(line, s, bound.upper, tally) * inverseUpper);
         ++tally.nullCollisions;
-        if (density > bound.upper) tally.noteViolation(s, density, bound.upper);
-        const double ratio = static_cast<double>(density) * inverseUpper;
-        for (std::size_t c = 0; c < N; ++c) weight[c] *= 1 - share[c] * ratio;
+        for (std::size_t c = 0; c < N; ++c) weight[c] *= null[c];
         if (!survives(weight, stream)) return false;
         depth = stream.exponential();
       }

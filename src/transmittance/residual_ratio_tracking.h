@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -9,12 +8,12 @@
 
 #include "fields/density_line.h"
 #include "transmittance/bounded_lookup.h"
+#include "transmittance/channel_products.h"
 #include "transmittance/channel_shares.h"
 #include "transmittance/estimate.h"
 #include "transmittance/lookup_limit.h"
 #include "transmittance/parameters.h"
 #include "transmittance/poisson_walk.h"
-#include "transmittance/running_product.h"
 #include "transmittance/sample_stream.h"
 #include "transmittance/traits.h"
 
@@ -56,7 +55,7 @@ struct ResidualRatioTracking {
     const Channels<N> share = sharesOf(sigmaT, sigmaMax);
     LookupTally& tally = estimate.tally;
     const LookupLimit limit(maxLookups);
-    std::array<RunningProduct, N> weight;
+    ChannelProducts<N> weight;
     double minorant = 0;  // integral of the lower bounds
     PoissonWalk walk(stream);
     line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
@@ -71,24 +70,13 @@ struct ResidualRatioTracking {
         if (limit.reached(tally)) return false;
         const double ratio = (boundedLookup(line, s, upper, tally) - lower) / excess;
         ++tally.nullCollisions;
-        for (std::size_t c = 0; c < N; ++c) weight[c].multiply(1 - share[c] * ratio);
-        return !allZero(weight);
+        weight.multiply(nullShares(share, ratio));
+        return !weight.isZero();
       });
-      return !allZero(weight);
+      return !weight.isZero();
     });
-    for (std::size_t c = 0; c < N; ++c) {
-      estimate.value[c] = weight[c].isZero() ? 0 : weight[c].timesExp(-sigmaT[c] * minorant);
-    }
+    estimate.value = weight.attenuated(sigmaT, minorant);
     return estimate;
-  }
-
- private:
-  template <std::size_t N>
-  static bool allZero(const std::array<RunningProduct, N>& weight) {
-    for (const RunningProduct& w : weight) {
-      if (!w.isZero()) return false;
-    }
-    return true;
   }
 };
 

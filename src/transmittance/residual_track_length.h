@@ -14,6 +14,7 @@
 #include "transmittance/lookup_limit.h"
 #include "transmittance/parameters.h"
 #include "transmittance/poisson_walk.h"
+#include "transmittance/real_collision.h"
 #include "transmittance/sample_stream.h"
 #include "transmittance/traits.h"
 
@@ -67,15 +68,10 @@ struct ResidualTrackLength {
       if (tally.capped != 0) return true;
       walk.cross(sEnter, sExit, sigmaMax * excess, [&](double s) {
         if (limit.reached(tally)) return false;
-        const double density = boundedLookup(line, s, upper, tally), u = stream.uniform();
+        const double density = boundedLookup(line, s, upper, tally);
         if (density < lower) tally.noteViolation(s, density, lower);
         const double ratio = (density - lower) / excess;
-        anyAlive = false;
-        for (std::size_t c = 0; c < N; ++c) {
-          if (u < share[c] * ratio) estimate.value[c] = 0;
-          anyAlive = anyAlive || (estimate.value[c] > 0 && sigmaT[c] > 0);
-        }
-        if (!(u < ratio)) ++tally.nullCollisions;
+        anyAlive = passCollision(estimate.value, share, ratio, 0, stream, tally);
         return anyAlive;
       });
       return anyAlive;

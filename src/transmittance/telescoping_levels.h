@@ -9,6 +9,8 @@
 
 #include "transmittance/comb.h"
 #include "transmittance/law.h"
+#include "transmittance/lookup_limit.h"
+#include "transmittance/traits.h"
 
 namespace pbrtmedia {
 
@@ -57,6 +59,24 @@ class TelescopingLevels {
   /// Pr{level >= i}.
   double reaching(unsigned i) const { return std::pow(1 - rate_, i); }
   double probability(unsigned i) const { return rate_ * reaching(i); }
+
+  /// Teeth of the coarse march: n 2^levels, or what the limit leaves.
+  static std::uint64_t baseTeeth(std::uint64_t n, std::uint64_t levels, std::uint64_t mostLookups) {
+    const std::uint64_t teeth = n << levels;
+    return mostLookups > 0 ? std::min(teeth, mostLookups) : teeth;
+  }
+  /// What every estimator that telescopes promises; summary, source and use are its own.
+  static EstimatorTraits traits(Comb comb, double rate, const AnyLaw& law, std::uint64_t mostLookups) {
+    EstimatorTraits traits;
+    traits.bias = LookupLimit::bias(mostLookups);
+    traits.biasNote = LookupLimit::biasNote(mostLookups);
+    traits.mayLeaveUnitInterval = true;
+    traits.control = EstimatorTraits::Control::Unused;
+    traits.finiteVariance = traits.finiteVarianceUnbounded = hasFiniteVariance(comb, rate, law);
+    traits.boundedCost = mostLookups > 0;
+    traits.laws = LawSet::all();
+    return traits;
+  }
 
   /// Whether sum_i E[Delta_i^2] / Pr is finite on every bounded density of bounded variation. The
   /// difference of the two halves of level i + 1 is of order 2^-i for combs and 2^(-i/2) for independent

@@ -13,6 +13,7 @@
 #include "transmittance/lookup_limit.h"
 #include "transmittance/parameters.h"
 #include "transmittance/poisson_walk.h"
+#include "transmittance/real_collision.h"
 #include "transmittance/sample_stream.h"
 #include "transmittance/traits.h"
 
@@ -62,14 +63,8 @@ struct TrackLength {
       }
       return walk.cross(sEnter, sExit, sigmaMax * upper, [&](double s) {
         if (limit.reached(tally)) return false;
-        const double ratio = boundedLookup(line, s, upper, tally) / upper, u = stream.uniform();
-        bool anyAlive = false;
-        for (std::size_t c = 0; c < N; ++c) {
-          if (u < share[c] * ratio) estimate.value[c] = 0;
-          anyAlive = anyAlive || (estimate.value[c] > 0 && sigmaT[c] > 0);
-        }
-        if (!(u < ratio)) ++tally.nullCollisions;
-        return anyAlive;
+        const double ratio = boundedLookup(line, s, upper, tally) / upper;
+        return passCollision(estimate.value, share, ratio, 0, stream, tally);
       });
     });
     return estimate;

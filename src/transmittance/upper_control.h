@@ -5,8 +5,9 @@
 
 #include "fields/density_line.h"
 #include "transmittance/bound_profile.h"
+#include "transmittance/bounded_lookup.h"
+#include "transmittance/channel_shares.h"
 #include "transmittance/estimate.h"
-#include "transmittance/probe.h"
 #include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
@@ -23,12 +24,10 @@ class UpperControl {
   UpperControl(const Line& line, const Channels<N>& sigmaT, SampleStream& stream, LookupTally& tally)
       : line_(line), profile_(line), sigmaMax_(maxOf(sigmaT)), tally_(tally) {
     if (!(sigmaMax_ > 0)) return;
-    for (std::size_t c = 0; c < N; ++c) share_[c] = sigmaT[c] / sigmaMax_;
+    share_ = sharesOf(sigmaT, sigmaMax_);
     depth_ = sigmaMax_ * profile_.upper();
-    if constexpr (!Line::kProvenBounds) {
-      for (const BoundPiece& piece : profile_.pieces()) {
-        if (!(piece.upper > 0)) probeEmpty(line_, piece.sEnter, piece.sExit, stream.rng(), tally_);
-      }
+    for (const BoundPiece& piece : profile_.pieces()) {
+      if (!(piece.upper > 0)) probeTrusted(line_, piece.sEnter, piece.sExit, 0, stream.rng(), tally_);
     }
   }
 
@@ -39,12 +38,8 @@ class UpperControl {
   /// channel: 1 - sigmaT[c] rho / majorant; below 0 where the bound of the largest channel is violated.
   Channels<N> nullRatio(double depth) {
     const BoundProfile::Place place = profile_.place(BoundProfile::Weight::Upper, depth / sigmaMax_);
-    const double density = static_cast<double>(line_.density(place.s)), upper = place.piece->upper;
-    ++tally_.lookups;
-    if (density > upper) tally_.noteViolation(place.s, density, upper);
-    Channels<N> ratio;
-    for (std::size_t c = 0; c < N; ++c) ratio[c] = 1 - share_[c] * (density / upper);
-    return ratio;
+    const double upper = place.piece->upper;
+    return nullShares(share_, boundedLookup(line_, place.s, upper, tally_) / upper);
   }
 
  private:

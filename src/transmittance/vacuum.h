@@ -3,8 +3,8 @@
 
 #include "base/rng.h"
 #include "fields/density_line.h"
+#include "transmittance/bounded_lookup.h"
 #include "transmittance/estimate.h"
-#include "transmittance/probe.h"
 
 namespace pbrtmedia {
 
@@ -17,7 +17,7 @@ bool isVacuum(const Line& line, Rng& rng, LookupTally& tally) {
   if constexpr (!Line::kProvenBounds) {
     if (vacuum) {
       line.walk([&](double sEnter, double sExit, const SuperVoxel&) {
-        probeEmpty(line, sEnter, sExit, rng, tally);
+        probeTrusted(line, sEnter, sExit, 0, rng, tally);
         return true;
       });
     }
