@@ -5,8 +5,9 @@
 // Each row walks the same random lines through the unit cube, scaled to optical depth 2 on average. The truth
 // of a line is the law of the estimator at its exact optical depth (regular tracking). The mean of every
 // estimator that promises no bias and a finite variance is checked against it; one that fails ends the
-// program with an error after the last row. `mse` is the mean squared error, which is the variance of
-// unbiased rows; efficiency is 1 / (mse x seconds). "unreliable" marks trials too short for the timer.
+// program with an error after the last row. `variance` is that within a line. `mse` is the mean
+// squared error: of unbiased rows the variance again, of others the bias too; efficiency is 1 / (mse x
+// seconds). "unreliable" marks trials too short for the timer.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -105,7 +106,7 @@ Scene<Field> sceneOf(const Field& field, SuperVoxels bounds) {
 
 struct Row {
   Trials ns;
-  double lookups = 0, mse = 0, bias = 0, z = 0;
+  double lookups = 0, variance = 0, mse = 0, bias = 0, z = 0;
   bool checked = false, reliable = true;
   bool passed() const { return !checked || std::abs(z) < kMaxAbsZ; }
 };
@@ -138,11 +139,12 @@ Row measure(const Scene<Field>& scene, const AnyEstimator& any) {
         }
         constexpr double kCount = static_cast<double>(kLines * kRepeats);
         row.lookups = lookups / kCount;
+        row.variance = variance / (kRepeats - 1) / static_cast<double>(kLines);
         row.mse = squares / kCount;
         row.bias = error / kCount;
         // Samples of a float field: the truth itself is good to a few 1e-7.
         constexpr double kTruthError = 1e-6;
-        const double standardError = std::sqrt(variance / (kRepeats - 1) * kRepeats) / kCount;
+        const double standardError = std::sqrt(row.variance / kCount);
         row.z = std::max(0.0, std::abs(row.bias) - kTruthError) / std::max(standardError, 1e-300);
         row.checked = traits.bias == EstimatorTraits::Bias::Unbiased && traits.finiteVariance;
 
@@ -177,8 +179,8 @@ bool walk(std::string_view name, const Field& field, SuperVoxels bounds, const O
   if (!options.field.empty() && options.field != name) return true;
   const Scene<Field> scene = sceneOf(field, std::move(bounds));
   bool good = true;
-  std::printf("%.*s\n%-28s %10s %7s %9s %10s %11s %11s\n", static_cast<int>(name.size()), name.data(),
-              "estimator", "ns", "spread", "look-ups", "ns/look-up", "mse", "1/(mse s)");
+  std::printf("%.*s\n%-28s %10s %7s %9s %10s %11s %11s %11s\n", static_cast<int>(name.size()), name.data(),
+              "estimator", "ns", "spread", "look-ups", "ns/look-up", "variance", "mse", "1/(mse s)");
   for (const std::string_view estimatorName : options.estimators) {
     const Row row = measure(scene, *findEstimator(estimatorName));
     const double ns = row.ns.median(), efficiency = 1 / (row.mse * ns * 1e-9);
@@ -186,9 +188,10 @@ bool walk(std::string_view name, const Field& field, SuperVoxels bounds, const O
     char perLookup[32] = "-", worth[32] = "exact";
     if (row.lookups > 0) std::snprintf(perLookup, sizeof perLookup, "%.1f", ns / row.lookups);
     if (!exact) std::snprintf(worth, sizeof worth, "%.3g", efficiency);
-    std::printf("%-28.*s %10.1f %7.2f %9.2f %10s %11.3g %11s%s%s\n", static_cast<int>(estimatorName.size()),
-                estimatorName.data(), ns, row.ns.spread(), row.lookups, perLookup, row.mse, worth,
-                row.reliable ? "" : "  unreliable", row.passed() ? "" : "  THE MEAN IS WRONG");
+    std::printf("%-28.*s %10.1f %7.2f %9.2f %10s %11.3g %11.3g %11s%s%s\n",
+                static_cast<int>(estimatorName.size()), estimatorName.data(), ns, row.ns.spread(),
+                row.lookups, perLookup, row.variance, row.mse, worth, row.reliable ? "" : "  unreliable",
+                row.passed() ? "" : "  THE MEAN IS WRONG");
     std::fflush(stdout);
     // An exact row has no efficiency, and one without look-ups no price per look-up.
     rows.push_back({{"field", name},
@@ -197,6 +200,7 @@ bool walk(std::string_view name, const Field& field, SuperVoxels bounds, const O
                     {"spread", row.ns.spread()},
                     {"lookups", row.lookups},
                     {"nsPerLookup", row.lookups > 0 ? nlohmann::json(ns / row.lookups) : nlohmann::json()},
+                    {"variance", row.variance},
                     {"mse", row.mse},
                     {"bias", row.bias},
                     {"efficiency", exact ? nlohmann::json() : nlohmann::json(efficiency)},

@@ -16,7 +16,8 @@
 namespace pbrtmedia {
 namespace {
 
-/// What a cell may spend.
+/// What a cell may spend. Trials end where the look-ups measured so far reach the budget, not the clock, so
+/// that the table is the same on every machine.
 struct Budget {
   std::uint64_t trials, lookups;
   double seconds;        ///< of processor time; far more than the look-ups take
@@ -80,8 +81,16 @@ Cell cellOf(const LabEstimator& estimator, const StressCase& one, const Budget& 
   return cell;
 }
 
-std::vector<LabTable::Cell> rowOf(const StressOptions& o, const Cell& cell, const IsolatedResult& result,
-                                  const StressVerdict& verdict) {
+/// The verdict's reason, and whether look-ups were too dear for all trials.
+std::string reasonOf(const StressVerdict& verdict, const TrialStats& stats, const Budget& budget) {
+  std::string reason = verdict.reason;
+  if (stats.trials() == 0 || stats.trials() >= budget.trials) return reason;
+  if (!reason.empty()) reason += "; ";
+  return reason + "trials ended at " + formatNumber(static_cast<double>(budget.lookups)) + " look-ups";
+}
+
+std::vector<LabTable::Cell> rowOf(const StressOptions& o, const Budget& budget, const Cell& cell,
+                                  const IsolatedResult& result, const StressVerdict& verdict) {
   const TrialStats& s = result.stats;
   const bool hasTrials = s.trials() > 0;
   const double none = std::nan("");
@@ -100,7 +109,7 @@ std::vector<LabTable::Cell> rowOf(const StressOptions& o, const Cell& cell, cons
                                   s.mostLookups};
   if (!o.lab.omitSeconds) row.emplace_back(hasTrials ? s.seconds : none);
   row.emplace_back(std::string(nameOf(verdict.kind)));
-  row.emplace_back(verdict.reason);
+  row.emplace_back(reasonOf(verdict, s, budget));
   return row;
 }
 
@@ -156,7 +165,7 @@ LabTable stressTable(const StressOptions& o, const StopSignal& stop) {
       verdict.z = std::nan("");
     }
     ++counts[nameOf(verdict.kind)];
-    table.add(rowOf(o, cells[i], result, verdict));
+    table.add(rowOf(o, budget, cells[i], result, verdict));
   }
   std::string summary = "verdicts:";
   for (const auto& [kind, count] : counts) {
@@ -178,7 +187,7 @@ int runStress(const StressOptions& options) {
   const bool hasFailed = std::any_of(table.rows().begin(), table.rows().end(), [&](const auto& row) {
     return row[verdict].text() == nameOf(StressVerdict::Kind::Fail);
   });
-  return hasFailed ? 1 : 0;
+  return hasFailed || stop ? 1 : 0;
 }
 
 }  // namespace pbrtmedia

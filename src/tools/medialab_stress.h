@@ -19,7 +19,7 @@ struct StressOptions {
 /// Every estimator on every case of stressCases(), each cell in a process of its own, with a verdict.
 LabTable stressTable(const StressOptions& options, const StopSignal& stop);
 
-/// `medialab stress`. 1 when any verdict is "fail".
+/// `medialab stress`. 1 when any verdict is "fail", or missing because the run was stopped.
 int runStress(const StressOptions& options);
 
 }  // namespace pbrtmedia
