@@ -15,6 +15,7 @@
 #include "construct/textures.h"
 #include "construct/world_builder.h"
 #include "integrators/endless_medium.h"
+#include "media/homogeneous.h"
 
 namespace pbrtmedia {
 namespace {
@@ -80,6 +81,21 @@ CameraMedium findCameraMedium(const SceneDescription& scene, const Construction&
   return medium;
 }
 
+/// Puts the parameters of the command line among those of the media they are meant for.
+void applyMediumParams(SceneDescription& scene, const ParamList& params, Diagnostics& diagnostics) {
+  if (params.empty()) return;
+  bool anyTakes = false;
+  for (MediumDescription& medium : scene.media) {
+    if (medium.type == HomogeneousMedium::kTypeName) continue;
+    anyTakes = true;
+    for (const Param& param : params.all()) medium.params.add(param);
+  }
+  if (!anyTakes) {
+    diagnostics.warning(params.all().front().declaredAt,
+                        "the scene has no medium with a density field: nothing was set");
+  }
+}
+
 /// Nothing would be rendered, silently.
 void checkPixelBounds(const SceneDescription& scene, const IntegratorPlan& integrator, const Film& film) {
   if (!integrator.pixelBounds || intersect(film.sampleBounds(), *integrator.pixelBounds).area() > 0) return;
@@ -92,6 +108,7 @@ void checkPixelBounds(const SceneDescription& scene, const IntegratorPlan& integ
 std::optional<Construction> construct(SceneDescription& scene, const ConstructOptions& options,
                                       Diagnostics& diagnostics) {
   const std::size_t errorsBefore = diagnostics.errorCount();
+  applyMediumParams(scene, options.mediumParams, diagnostics);
   FilmPlan film = readFilm(scene, options, diagnostics);
   Construction made;
   made.outfile = film.outfile;
@@ -106,6 +123,7 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
   world.read(options.quick);
   if (!integrator || diagnostics.errorCount() > errorsBefore) return std::nullopt;
 
+  bool mediaEmit = false;
   try {
     made.film = builtAt(scene.film.location, "Film \"image\"",
                         [&] { return std::make_unique<Film>(film.settings, std::move(film.filter)); });
@@ -113,6 +131,7 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
     made.scene = world.build(integrator->rendersMedia);
     CameraMedium cameraMedium;
     if (integrator->rendersMedia) cameraMedium = findCameraMedium(scene, made, world, diagnostics);
+    mediaEmit = made.scene->hasEmissiveMedia() || MediaTracker::emits(cameraMedium.state());
     made.integrator = integrator->make(*made.scene, std::move(cameraMedium));
     made.pixelBounds = integrator->pixelBounds;
   } catch (const SceneError& e) {
@@ -120,7 +139,7 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
   }
   if (diagnostics.errorCount() > errorsBefore) return std::nullopt;
 
-  if (made.scene->lights().empty() && !made.scene->hasVisibleEmitters()) {
+  if (made.scene->lights().empty() && !made.scene->hasVisibleEmitters() && !mediaEmit) {
     diagnostics.warning(scene.worldEnd, "the scene has no lights: the image will be black");
   }
   if (!integrator->rendersMedia && world.usesMedia()) {

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "scene/param_list.h"
+
 namespace pbrtmedia {
 
 /// What the command line has to say about how a scene is built.
@@ -15,6 +17,8 @@ struct ConstructOptions {
   bool quick = false;                             ///< resolution / 4, one sample per pixel (random: as asked)
   std::optional<std::int64_t> samplesPerPixel{};  ///< overrides the sampler's
   std::uint64_t seed = 0;
+  /// Replace those of every medium with a density field, or are added to them.
+  ParamList mediumParams{};
 };
 
 }  // namespace pbrtmedia

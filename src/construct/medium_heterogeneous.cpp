@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/files.h"
+#include "construct/emission.h"
 #include "construct/medium_kinds.h"
 #include "construct/medium_params.h"
 #include "construct/plugins.h"
@@ -97,14 +98,16 @@ std::optional<MediumPlan> readHeterogeneousMedium(ParamReader& in, const MediumD
   if (!readMediumBox(in, grid.p0, grid.p1)) return std::nullopt;
   const std::size_t expected = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny) *
                                static_cast<std::size_t>(grid.nz);
+  const EmissionPlan emission = readGridEmission(in, grid, *p);
   const bool isInline = in.has(ParamKind::Float, "density");
   if (in.has(ParamKind::String, "filename")) {
     if (isInline) in.error(ParamKind::String, "filename", "\"float density\" is given too: one of them");
     if (!path || isInline) return std::nullopt;
     std::shared_ptr<const RawFile> file = openRaw(in, *path, expected, grid);
     if (!file) return std::nullopt;
-    return [p, file = std::move(file), place = medium.ctm->start, context = in.context(),
+    return [p, file = std::move(file), emission, place = medium.ctm->start, context = in.context(),
             named = in.locationOf(ParamKind::String, "filename")](Textures&) mutable {
+      if (emission) p->emissionPattern = emission(place);
       p->grid.density = decodeRaw(file->bytes, file->format);
       file.reset();
       return builtAt(named, context, [&] {
@@ -119,7 +122,8 @@ std::optional<MediumPlan> readHeterogeneousMedium(ParamReader& in, const MediumD
     return std::nullopt;
   }
   if (!takeDensity(in, expected, grid)) return std::nullopt;
-  return [p, place = medium.ctm->start](Textures&) {
+  return [p, emission, place = medium.ctm->start](Textures&) {
+    if (emission) p->emissionPattern = emission(place);
     auto made = makeGridMedium(*p, place);
     *p = {};  // the input values are not needed any more
     return made;

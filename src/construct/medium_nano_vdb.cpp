@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include <filesystem>
 
+#include "construct/emission.h"
 #include "construct/medium_kinds.h"
 #include "construct/medium_params.h"
 #include "construct/plugins.h"
@@ -20,10 +21,13 @@ std::optional<MediumPlan> readNanoVdbMedium(ParamReader& in, const MediumDescrip
     return std::nullopt;
   }
   p.field.file = *file;
+  const EmissionPlan emission = readNanoVdbEmission(in, p.field, p);
   // A grid that is not there is told at its name, what is wrong with the file at the file.
   const ParamKind kind = ParamKind::String;
   const SourceLocation named = in.locationOf(kind, in.has(kind, "grid") ? "grid" : "filename");
-  return [p = std::move(p), named, context = in.context(), place = medium.ctm->start](Textures&) {
+  return [p = std::move(p), emission, named, context = in.context(),
+          place = medium.ctm->start](Textures&) mutable {
+    if (emission) p.emissionPattern = emission(place);
     return builtAt(named, context, [&] { return makeNanoVdbMedium(p, place); });
   };
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "construct/emission.h"
 #include "construct/freeflight.h"
 #include "construct/medium_bounds.h"
 #include "construct/phase.h"
@@ -33,6 +34,7 @@ void readMediumParams(ParamReader& in, const MediumDescription& medium, MediumPa
     if (sigma.min() < 0)
       in.error(ParamKind::Spectrum, name, "found a negative coefficient, expected numbers >= 0");
   }
+  readEmission(in, medium, p);
   p.phase = readPhase(in);
 
   constexpr std::array<std::string_view, 3> kRules = {"boundary", "add", "priority"};
@@ -65,6 +67,9 @@ void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, Den
                            FieldMediumParams& p) {
   readMediumParams(in, medium, p);
   p.estimator = readTransmittance(in, p.estimator);
+  if (!std::holds_alternative<ExponentialLaw>(lawOf(p.estimator)) && !p.le.isBlack()) {
+    in.error(ParamKind::String, "law", "a medium that emits (Le) follows the exponential law only");
+  }
   if (!std::holds_alternative<ExponentialLaw>(lawOf(p.estimator)) && p.sigmaS.max() > 0) {
     in.error(ParamKind::String, "law",
              "free flights follow the exponential law only: under another one the medium must not scatter "

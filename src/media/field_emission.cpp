@@ -8,7 +8,7 @@
 
 namespace pbrtmedia {
 
-FieldEmission::FieldEmission(Rgb emission, std::unique_ptr<const EmissionPattern> pattern,
+FieldEmission::FieldEmission(Rgb emission, std::shared_ptr<const EmissionPattern> pattern,
                              const SuperVoxels& bounds, const Transform& worldFromLocal)
     : emission_(emission), pattern_(std::move(pattern)) {
   if (!isEmissive() || !pattern_) return;

@@ -20,7 +20,7 @@ class FieldEmission {
  public:
   FieldEmission() = default;  ///< nothing
   /// `emission`: sigma_a Le at density 1. `pattern` may be null. `bounds`: of the density.
-  FieldEmission(Rgb emission, std::unique_ptr<const EmissionPattern> pattern, const SuperVoxels& bounds,
+  FieldEmission(Rgb emission, std::shared_ptr<const EmissionPattern> pattern, const SuperVoxels& bounds,
                 const Transform& worldFromLocal);
 
   bool isEmissive() const { return !emission_.isBlack(); }
@@ -56,7 +56,7 @@ class FieldEmission {
 
  private:
   Rgb emission_;
-  std::unique_ptr<const EmissionPattern> pattern_;
+  std::shared_ptr<const EmissionPattern> pattern_;
   /// upper: strength; mean: control of the density. Only with a pattern.
   std::optional<SuperVoxels> cells_;
 };

@@ -32,11 +32,10 @@ namespace pbrtmedia {
 template <class Field>
 class FieldMedium final : public Medium {
  public:
-  /// Throws SceneError (location unknown) when a parameter is out of range. `pattern`: of the emission, may
-  /// be null.
+  /// Throws SceneError (location unknown) when a parameter is out of range.
   /// `bounds`: nothing for a field that has its own in force (UnprovenField).
   FieldMedium(const FieldMediumParams& params, std::string_view typeName, Field field,
-              std::optional<SuperVoxels> bounds, std::unique_ptr<const EmissionPattern> pattern = nullptr)
+              std::optional<SuperVoxels> bounds)
       : Medium(params.name, params.overlap),
         field_(std::move(field)),
         ownBounds_(std::move(bounds)),
@@ -48,7 +47,7 @@ class FieldMedium final : public Medium {
         samplingPattern_(params.pattern),
         phase_(makePhaseFunction(params.phase)),
         sigmaS_(params.sigmaS),
-        emission_(params.sigmaA * params.le, std::move(pattern), bounds_, field_.worldFromLocal()) {
+        emission_(params.sigmaA * params.le, params.emissionPattern, bounds_, field_.worldFromLocal()) {
     checkCoefficients(params.sigmaA, params.sigmaS, name());
     checkEmission(params.le, params.sigmaA * params.le, name());
     for (std::size_t c = 0; c < 3; ++c) albedo_[c] = sigmaT_[c] > 0 ? params.sigmaS[c] / sigmaT_[c] : 0.0f;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <memory>
+
 #include "freeflight/any_sampler.h"
 #include "media/bounds_params.h"
+#include "media/emission_pattern.h"
 #include "media/medium_params.h"
 #include "transmittance/any_estimator.h"
 #include "transmittance/sampling_pattern.h"
@@ -12,6 +15,8 @@ namespace pbrtmedia {
 /// What every medium with a density field has: coefficients that its density scales, and its ways of
 /// tracking.
 struct FieldMediumParams : MediumParams {
+  /// What `le` is multiplied with from place to place; null: nothing.
+  std::shared_ptr<const EmissionPattern> emissionPattern;
   AnyEstimator estimator = RatioTracking{.rouletteThreshold = 0.1};
   AnySampler sampler;
   PatternKind pattern = PatternKind::Independent;  ///< across the estimates of one pixel

@@ -19,8 +19,7 @@ namespace pbrtmedia {
 std::unique_ptr<Medium> makeUnprovenMedium(const FieldMediumParams& params, std::string_view typeName,
                                            GridField field);
 std::unique_ptr<Medium> makeUnprovenMedium(const FieldMediumParams& params, std::string_view typeName,
-                                           NanoVdbField field,
-                                           std::unique_ptr<const EmissionPattern> pattern = nullptr);
+                                           NanoVdbField field);
 std::unique_ptr<Medium> makeUnprovenMedium(const FieldMediumParams& params, std::string_view typeName,
                                            ProceduralField field);
 

@@ -13,8 +13,7 @@ namespace pbrtmedia {
 /// The body of every makeUnprovenMedium (media/unproven_medium.h).
 template <class Field>
 std::unique_ptr<Medium> unprovenMedium(const FieldMediumParams& params, std::string_view typeName,
-                                       Field field,
-                                       std::unique_ptr<const EmissionPattern> pattern = nullptr) {
+                                       Field field) {
   const BoundsParams& b = params.bounds;
   const float sigmaT = (params.sigmaA + params.sigmaS).max();
   // A medium of sigma_t 0 is clear whatever the bounds are.
@@ -22,7 +21,7 @@ std::unique_ptr<Medium> unprovenMedium(const FieldMediumParams& params, std::str
   const SuperVoxelLattice cells = field.lattice(b.cells);
   const auto made = [&](UnprovenField<Field> unproven) {
     return std::make_unique<FieldMedium<UnprovenField<Field>>>(params, typeName, std::move(unproven),
-                                                               std::nullopt, std::move(pattern));
+                                                               std::nullopt);
   };
   if (b.source == BoundsParams::Source::Constant) {
     const SuperVoxel bound{densityOf(b.majorant), 0, SuperVoxel::kUnknownMean};

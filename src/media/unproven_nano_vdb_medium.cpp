@@ -5,9 +5,8 @@
 namespace pbrtmedia {
 
 std::unique_ptr<Medium> makeUnprovenMedium(const FieldMediumParams& params, std::string_view typeName,
-                                           NanoVdbField field,
-                                           std::unique_ptr<const EmissionPattern> pattern) {
-  return unprovenMedium(params, typeName, std::move(field), std::move(pattern));
+                                           NanoVdbField field) {
+  return unprovenMedium(params, typeName, std::move(field));
 }
 
 }  // namespace pbrtmedia
