@@ -62,6 +62,14 @@ const MediumLight* Scene::mediumLight(std::size_t light) const {
 
 const std::vector<Medium*>& Scene::media() const { return parts_->media; }
 
+std::vector<Medium*> Scene::learners() const {
+  std::vector<Medium*> learners;
+  for (Medium* medium : parts_->media) {
+    if (medium->learnedBounds() != nullptr) learners.push_back(medium);
+  }
+  return learners;
+}
+
 SceneHit Scene::resolve(const RayHit& hit) const {
   SceneHit result{.hit = hit};
   const Parts::PlacedPrimitive* placed = nullptr;

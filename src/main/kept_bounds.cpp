@@ -5,14 +5,6 @@
 
 namespace pbrtmedia {
 
-std::vector<Medium*> learnersOf(const Scene& scene) {
-  std::vector<Medium*> learners;
-  for (Medium* medium : scene.media()) {
-    if (medium->learnedBounds() != nullptr) learners.push_back(medium);
-  }
-  return learners;
-}
-
 KeptBounds::KeptBounds(const std::optional<std::filesystem::path>& file) : file_(file) {
   std::error_code ignored;
   if (file_ && std::filesystem::exists(*file_, ignored)) cache_ = BoundsCache::read(*file_);
@@ -20,7 +12,7 @@ KeptBounds::KeptBounds(const std::optional<std::filesystem::path>& file) : file_
 
 std::string KeptBounds::restore(const std::string& sceneName, const Scene& scene) const {
   if (!file_) return {};
-  const std::vector<Medium*> learners = learnersOf(scene);
+  const std::vector<Medium*> learners = scene.learners();
   std::string warnings;
   if (learners.empty()) warnings += "pbrt: warning: --bounds-cache: no medium has progressive bounds\n";
   if (!cache_) return warnings;
@@ -37,7 +29,7 @@ std::string KeptBounds::restore(const std::string& sceneName, const Scene& scene
 }
 
 void KeptBounds::save(const std::string& sceneName, const Scene& scene) {
-  const std::vector<Medium*> learners = learnersOf(scene);
+  const std::vector<Medium*> learners = scene.learners();
   if (!file_ || learners.empty()) return;
   if (!cache_) cache_.emplace();
   for (Medium* medium : learners) cache_->keep(sceneName, *medium);

@@ -4,15 +4,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "integrators/scene.h"
 #include "media/bounds_cache.h"
 
 namespace pbrtmedia {
-
-/// The media of a scene whose bounds are learned.
-std::vector<Medium*> learnersOf(const Scene& scene);
 
 /// `--bounds-cache`: bounds learned by earlier renders, and by this one for later ones.
 class KeptBounds {

@@ -90,7 +90,7 @@ RenderResult renderImage(const Construction& scene, const Options& options, cons
   loop.tileSize = options.tileSize;
   loop.pixelBounds = scene.pixelBounds;
   loop.stop = &stop.flag();
-  loop.learners = learnersOf(*scene.scene);
+  loop.learners = scene.scene->learners();
   if (options.timeLimit) loop.timeLimit = *options.timeLimit;
   ProgressLine line(options.progress, options.quiet, scene.outfile.filename().string());
   loop.progress = [&](const RenderProgress& p) {

@@ -187,6 +187,7 @@ inline Numbers filmResponse(const Attempt& a) {
 inline Numbers rendered(const Attempt& a) {
   RenderOptions loop;
   loop.pixelBounds = a.made->pixelBounds;
+  loop.learners = a.made->scene->learners();
   const RenderResult result =
       renderFilm(*a.made->camera, *a.made->sampler, *a.made->integrator, *a.made->film, loop);
   Numbers n{static_cast<double>(result.samplesTaken)};
