@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "image/image.h"
@@ -101,7 +102,9 @@ Image plot(const Profile& profile) {
     for (const auto& [density, colour] :
          {std::pair{i.bound.mean, kMean}, {i.bound.lower, kLower}, {i.bound.upper, kUpper}}) {
       if (density < 0) continue;
-      canvas.line(xOf(i.sEnter), yOf(density), xOf(i.sExit), yOf(density), colour);
+      const auto pixel = [](double x) { return static_cast<int>(std::lround(x)); };
+      const int left = pixel(xOf(i.sEnter)), right = std::max(left + 1, pixel(xOf(i.sExit)));
+      canvas.fill(left, pixel(yOf(density)) - 1, right - left, 2, colour);
     }
   }
   for (int x = 0; x < kWidth; ++x) {
@@ -111,10 +114,10 @@ Image plot(const Profile& profile) {
   canvas.frame(kLeft, kTop, kWidth, kHeight + 1, kInk);
   canvas.text(kLeft, 10, line.function().about().name + ", depth " + formatNumber(profile.problem.depth()),
               kInk, 2);
-  const std::string most =
-      formatNumber(static_cast<double>(static_cast<float>(top * profile.problem.sigmaT)));
-  canvas.text(4, kTop, most.substr(0, 10), kInk);
-  canvas.text(4, kTop + kHeight - 7, "0", kInk);
+  char most[32];
+  std::snprintf(most, sizeof most, "%.4g", top * profile.problem.sigmaT);
+  canvas.text(kLeft - 6 - LabCanvas::textWidth(most), kTop, most, kInk);
+  canvas.text(kLeft - 6 - LabCanvas::textWidth("0"), kTop + kHeight - 7, "0", kInk);
   canvas.text(kLeft, kTop + kHeight + 8, "0", kInk);
   const std::string end = formatNumber(width);
   canvas.text(kLeft + kWidth - LabCanvas::textWidth(end), kTop + kHeight + 8, end, kInk);

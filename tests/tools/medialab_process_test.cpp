@@ -306,6 +306,10 @@ TEST(Medialab, FloatCostsDigitsWhereItMatters) {
   const json rows = labJson("precision")["rows"];
   bool foundThin = false, foundFar = false;
   for (const json& row : rows) {
+    if (row["error_float"].is_null()) {  // no walk in float has the collisions of the one in double
+      EXPECT_EQ(row["quantity"], "ratio walk: largest error of the last position, free paths");
+      continue;
+    }
     const double exact = row["exact"], inFloat = row["error_float"], inDouble = row["error_double"];
     if (row["quantity"] == "1 - exp(-depth)" && row["setting"] == "depth 1e-08") {
       foundThin = true;
