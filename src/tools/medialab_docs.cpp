@@ -214,13 +214,13 @@ void printLab(std::ostream& out) {
 `medialab COMMAND --help` tells all options; every output begins with the command that repeats it.
 
 ```
-medialab list                                                                  # this page's first half, as text or JSON
-medialab estimate --estimator all --extinction cosine --depth 1,4 --control 1,2  # mean, variance, cost, with errors
-medialab heatmap --extinction gaussian -o gaussian                             # over transmittance and control: CSV, EXR, PNG
-medialab converge --estimator ratio,unbiased-ray-marching -o converge.csv      # error against samples, look-ups, seconds
-medialab profile --estimator ratio --supervoxels 8 --lower 1 --picture line.png  # one line, its controls, its look-ups
-medialab stress -o stress.csv                                                  # all on stiff and extreme lines: ten minutes of processor time
-medialab precision                                                             # float against double where it matters
+medialab list                                                                      # this page's first half, as text or JSON
+medialab estimate --estimator all --extinction cosine --depth 1,4 --control 1,2    # mean, variance, cost, with errors
+medialab heatmap --extinction gaussian -o gaussian                                 # over transmittance and control: CSV, EXR, PNG
+medialab converge --estimator ratio,unbiased-ray-marching -o converge.csv          # error against samples, look-ups, seconds
+medialab profile --estimator ratio --supervoxels 8 --lower 1 --picture line.png    # one line, its controls, its look-ups
+medialab stress -o stress.csv                                                      # all on stiff and extreme lines: ten minutes of processor time
+medialab precision                                                                 # float against double where it matters
 ```
 )";
 }
