@@ -42,7 +42,8 @@ std::map<std::string, double> measuredShares(const std::string& name) {
   const CanonicalFunction function = *findCanonicalFunction(name);
   std::vector<std::size_t> best(kAcross * kDown);
   parallelFor(best.size(), [&](std::size_t i) {
-    const auto x = static_cast<double>(i % kAcross), y = static_cast<double>(i / kAcross);
+    const std::size_t column = i % kAcross, row = i / kAcross;
+    const auto x = static_cast<double>(column), y = static_cast<double>(row);
     ProblemOptions options;
     options.isPaperDepth = true;
     options.depths = {-std::log(0.95 - 0.9 * x / (kAcross - 1))};
