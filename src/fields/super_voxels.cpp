@@ -42,7 +42,7 @@ SuperVoxels::SuperVoxels(const SuperVoxelLattice& lattice,
     : lattice_(lattice),
       inverseCellSize_(1 / lattice.cellSize.x, 1 / lattice.cellSize.y, 1 / lattice.cellSize.z) {
   const LatticeShape& shape = lattice.shape;
-  bounds_.resize(static_cast<std::size_t>(shape.stored()));
+  bounds_.resize(static_cast<std::size_t>(shape.stored()), Bound{kApron, 0});
   means_.resize(bounds_.size());
   parallelFor(static_cast<std::size_t>(shape.count.y * shape.count.z), [&](std::size_t row) {
     const auto j = static_cast<std::int64_t>(row) % shape.count.y;

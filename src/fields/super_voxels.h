@@ -24,7 +24,7 @@ using WantedCells = std::optional<std::array<int, 3>>;
 struct SuperVoxelLattice {
   LatticeShape shape{};
   Vec3d cellSize{1, 1, 1};  ///< local units
-  Bounds3d box{};             ///< where the field lives, inside the lattice (local units)
+  Bounds3d box{};           ///< where the field lives, inside the lattice (local units)
 
   std::size_t cellCount() const {
     return static_cast<std::size_t>(shape.count.x * shape.count.y * shape.count.z);
@@ -87,11 +87,17 @@ class SuperVoxels {
     double entered = 0;  // where the empty stretch at hand begins
     double reached = 0;  // up to where the line is known
     bool stopped = false;
+    std::size_t last = 0;  // the occupied cell that was visited last
     walkLattice(lattice_.shape, inCells, 0.0, length, [&](double sExit, std::size_t index) {
       const SuperVoxel bound = cell(index);
       if (bound.upper > 0) {
         if (entered < reached && !visit(entered, reached, kEmpty)) return !(stopped = true);
         if (!visit(reached, sExit, bound)) return !(stopped = true);
+        entered = sExit;
+        last = index;
+      } else if (bound.upper < 0 && entered == reached && reached > 0) {
+        // Rounding has left a sliver behind the last face: it belongs to the cell before.
+        if (!visit(reached, sExit, cell(last))) return !(stopped = true);
         entered = sExit;
       }
       reached = sExit;
@@ -102,6 +108,7 @@ class SuperVoxels {
 
  private:
   static constexpr SuperVoxel kEmpty{0, 0, 0};
+  static constexpr float kApron = -1;  ///< marks cells outside the lattice
   struct Bound {
     float upper = 0, lower = 0;
   };
@@ -120,7 +127,7 @@ class SuperVoxels {
   Bounds3d occupied_;
   float maximum_ = 0;
   std::size_t emptyCells_ = 0;
-  std::vector<Bound> bounds_;  ///< with an apron of empty cells
+  std::vector<Bound> bounds_;  ///< with an apron of cells marked kApron
   std::vector<float> means_;   ///< apart, so that walks that ask for bounds only read less
 };
 
