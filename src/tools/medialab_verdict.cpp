@@ -143,7 +143,10 @@ StressVerdict judge(const EstimatorTraits& t, const StressSetting& s, const Isol
   }
   if (!finiteVariance) {
     verdict.unbiased = "not judged";
-    return conclude(Kind::Expected, "infinite variance under this control: the mean cannot be judged");
+    const bool byControl = t.finiteVariance;
+    return conclude(Kind::Expected, byControl
+                                        ? "infinite variance under this control: the mean cannot be judged"
+                                        : "the variance may be infinite: the mean cannot be judged");
   }
   const MeanJudgement mean = judgeMean(t, s, stats, verdict.z);
   verdict.unbiased = mean.kind == Kind::Pass ? "yes" : mean.kind == Kind::Fail ? "no" : "undecided";
