@@ -44,10 +44,11 @@ IntegratorPlan readPath(ParamReader& in) {
 
 IntegratorPlan readVolPath(ParamReader& in) {
   PathParams p = readPathParams(in);
-  constexpr std::array<std::string_view, 3> kSamplings = {"collision", "equiangular", "mis"};
-  p.mediumLightSampling = std::array{MediumLightSampling::Collision, MediumLightSampling::Equiangular,
-                                     MediumLightSampling::Mis}[in.findChoice(
-      "mediumlightsampling", kSamplings, static_cast<std::size_t>(p.mediumLightSampling))];
+  constexpr std::array<std::string_view, 4> kSamplings = {"auto", "collision", "equiangular", "mis"};
+  p.mediumLightSampling =
+      std::array{MediumLightSampling::Auto, MediumLightSampling::Collision, MediumLightSampling::Equiangular,
+                 MediumLightSampling::Mis}[in.findChoice("mediumlightsampling", kSamplings,
+                                                         static_cast<std::size_t>(p.mediumLightSampling))];
   return {[=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
             return std::make_unique<VolPathIntegrator>(
                 scene, p, selectorFor(scene.lightsWithMedia(), scene, p), std::move(cameraMedium));

@@ -188,14 +188,30 @@ Rgb MediaTracker::scattering(const MediumState& state, const Ray& ray, double t,
   return sum;
 }
 
-double MediaTracker::flightDensity(const MediumState& state, const Ray& ray, double tMin, double t) {
-  Rgb depth, rate;
+namespace {
+
+FlightControl controlOf(const MediumState& state, const Ray& ray, double tMin, double t) {
+  FlightControl sum{};
   for (std::size_t i = 0; i < state.activeCount(); ++i) {
     const PlacedMedium m = state.active(i);
     const FlightControl control = m.medium->flightControl(segmentOf(m, ray, tMin, t));
-    depth += control.depth;
-    rate += control.rate;
+    sum.depth += control.depth;
+    sum.rate += control.rate;
   }
+  return sum;
+}
+
+}  // namespace
+
+double MediaTracker::meanExtinction(const MediumState& state, const Ray& ray, double tMin, double tMax) {
+  const FlightControl control = controlOf(state, ray, tMin, tMax);
+  const double length = tMax - tMin;
+  if (!(length < static_cast<double>(kInfinity))) return static_cast<double>(control.rate.average());
+  return length > 0 ? static_cast<double>(control.depth.average()) / length : 0;
+}
+
+double MediaTracker::flightDensity(const MediumState& state, const Ray& ray, double tMin, double t) {
+  const auto [depth, rate] = controlOf(state, ray, tMin, t);
   double sum = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     if (rate[c] > 0) sum += static_cast<double>(rate[c]) * std::exp(-static_cast<double>(depth[c]));

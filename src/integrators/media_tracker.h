@@ -78,6 +78,9 @@ class MediaTracker {
   /// Density that a flight from tMin is taken to have for a collision at `t`, for weights: the mean over the
   /// channels of what the media's controls say together.
   static double flightDensity(const MediumState& state, const Ray& ray, double tMin, double t);
+  /// Mean over the stretch and the channels of the extinction that the media's controls say together; on an
+  /// endless one that at its end.
+  static double meanExtinction(const MediumState& state, const Ray& ray, double tMin, double tMax);
   /// Whether some active medium emits.
   static bool emits(const MediumState& state);
   /// A point of the segment chosen where active medium number `i` emits.

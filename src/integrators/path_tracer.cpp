@@ -108,13 +108,19 @@ bool PathTracer::passMedium(double tMin, double tMax, const SceneHit* hit, const
     beta_ *= MediaTracker::transmittance(state_, ray_, tMin, tMax, context_.rng, counters_);
     return !beta_.isBlack();
   }
-  if (setup_.positionLights) lightStretch(tMin, tMax, hit, start);
+  std::optional<double> extinction;
+  if (setup_.positionLights) {
+    if (setup_.params.mediumLightSampling == MediumLightSampling::Auto) {
+      extinction = MediaTracker::meanExtinction(state_, ray_, tMin, tMax);
+    }
+    lightStretch({ray_, tMin, tMax, extinction}, hit, start);
+  }
   const MediumFlight flight =
       MediaTracker::sampleFreeFlight(state_, ray_, tMin, tMax, context_.rng, counters_);
   beta_ *= flight.weight;
   if (beta_.isBlack()) return false;
   if (!flight.collided) return true;
-  medium_ = {mediumPoint(flight.t, tMax, hit, start), flight.phase, flight.t, tMin, tMax};
+  medium_ = {mediumPoint(flight.t, tMax, hit, start), flight.phase, flight.t, tMin, tMax, extinction};
   if (!isFinite(medium_.p)) return false;  // beyond what coordinates can tell: nothing is out there
   event = Event::Medium;
   return false;
@@ -131,11 +137,12 @@ Point3f PathTracer::mediumPoint(double t, double tMax, const SceneHit* hit, cons
 
 /// Single scattering of a light at one point, at a distance chosen for that light. The flight that follows
 /// may collide and sample the same light: `collisionShare` divides the work.
-void PathTracer::lightStretch(double tMin, double tMax, const SceneHit* hit, const BoundaryPlane& start) {
+void PathTracer::lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit,
+                              const BoundaryPlane& start) {
   const float u = samples_.get1D(), v = samples_.get1D();
-  const auto choice = setup_.positionLights->sample(ray_, tMin, tMax, u, v);
+  const auto choice = setup_.positionLights->sample(stretch, u, v);
   if (!choice) return;
-  const Point3f p = mediumPoint(choice->t, tMax, hit, start);
+  const Point3f p = mediumPoint(choice->t, stretch.tMax, hit, start);
   if (!isFinite(p)) return;
   const PickedLight light{choice->light, setup_.lights[choice->light]->sample(p, {})};
   const LightSample& s = light.sample;
@@ -144,10 +151,11 @@ void PathTracer::lightStretch(double tMin, double tMax, const SceneHit* hit, con
   if (scattered.isBlack()) return;
   double density = choice->pdf;
   if (setup_.params.mediumLightSampling == MediumLightSampling::Mis) {
-    density += MediaTracker::flightDensity(state_, ray_, tMin, choice->t) *
+    density += MediaTracker::flightDensity(state_, ray_, stretch.tMin, choice->t) *
                double{setup_.selector->probability(p, choice->light)};
   }
-  const Rgb through = MediaTracker::transmittance(state_, ray_, tMin, choice->t, context_.rng, counters_);
+  const Rgb through =
+      MediaTracker::transmittance(state_, ray_, stretch.tMin, choice->t, context_.rng, counters_);
   if (through.isBlack()) return;
   radiance_ += beta_ * through * scattered * s.radiance * static_cast<float>(1 / density) *
                unoccluded(light, p, {}, state_);
@@ -309,11 +317,14 @@ float PathTracer::lightWeight(const PickedLight& light, Point3f p, float directi
 /// Share of a collision's sample of a light at one point; `lightStretch` accounts for the rest.
 float PathTracer::collisionShare(std::size_t light, Point3f p) const {
   if (!setup_.positionLights || !setup_.positionLights->contains(light)) return 1;
-  if (setup_.params.mediumLightSampling == MediumLightSampling::Equiangular) return 0;
+  const MediumLightSampling sampling = setup_.params.mediumLightSampling;
+  if (sampling == MediumLightSampling::Equiangular) return 0;
+  const double stretch =
+      setup_.positionLights->pdf(light, {ray_, medium_.tMin, medium_.tMax, medium_.extinction}, medium_.t);
+  if (!(stretch > 0)) return 1;
+  if (sampling == MediumLightSampling::Auto) return 0;
   const double flight = MediaTracker::flightDensity(state_, ray_, medium_.tMin, medium_.t) *
                         double{setup_.selector->probability(p, light)};
-  const double stretch = setup_.positionLights->pdf(light, ray_, medium_.tMin, medium_.tMax, medium_.t);
-  if (!(stretch > 0)) return 1;
   return static_cast<float>(flight / (flight + stretch));
 }
 

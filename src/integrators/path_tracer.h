@@ -42,7 +42,8 @@ class PathTracer {
   struct MediumVertex {
     Point3f p;
     const PhaseFunction* phase;
-    double t, tMin, tMax;  ///< on the ray, and the stretch in media that it was sampled on
+    double t, tMin, tMax;              ///< on the ray, and the stretch in media that it was sampled on
+    std::optional<double> extinction;  ///< PositionLights::Stretch
   };
   enum class Event { End, Surface, Medium };
 
@@ -50,7 +51,7 @@ class PathTracer {
   Event travel();
   bool passMedium(double tMin, double tMax, const SceneHit* hit, const BoundaryPlane& start, Event& event);
   Point3f mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
-  void lightStretch(double tMin, double tMax, const SceneHit* hit, const BoundaryPlane& start);
+  void lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
   void collectMediumEmission(double tMin, double tMax);
   void collectEmission(const SceneHit& hit, const SurfaceInteraction& si);
   void collectBackground();

@@ -23,15 +23,23 @@ class PositionLights {
   bool isEmpty() const { return lights_.empty(); }
   bool contains(std::size_t light) const { return slots_[light] != kNoSlot; }
 
+  /// A stretch of a ray through media.
+  struct Stretch {
+    const Ray& ray;
+    double tMin, tMax;
+    /// Mean extinction, to leave out the lights that collisions would sample with less noise. Nothing: every
+    /// light is sampled.
+    std::optional<double> extinction = std::nullopt;
+  };
   struct Choice {
     std::size_t light;
     double t;
     double pdf;  ///< of this light and this distance together, per length; > 0
   };
   /// Nothing when no light reaches the stretch. `u`, `v` in [0, 1).
-  std::optional<Choice> sample(const Ray& ray, double tMin, double tMax, float u, float v) const;
+  std::optional<Choice> sample(const Stretch& stretch, float u, float v) const;
   /// Density of `sample` at one of these lights and a distance.
-  double pdf(std::size_t light, const Ray& ray, double tMin, double tMax, double t) const;
+  double pdf(std::size_t light, const Stretch& stretch, double t) const;
 
  private:
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
@@ -45,7 +53,7 @@ class PositionLights {
     Vec3d position;
     double power;
   };
-  static std::optional<Equiangular> over(const Entry& e, const Ray& ray, double tMin, double tMax);
+  static std::optional<Equiangular> over(const Entry& e, const Stretch& stretch);
   bool weighsEach() const { return lights_.size() <= kMostWeighed; }
 
   std::vector<Entry> lights_;

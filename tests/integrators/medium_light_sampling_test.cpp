@@ -17,10 +17,13 @@ namespace {
 
 using namespace test;
 using Sampling = MediumLightSampling;
-constexpr std::array kSamplings = {Sampling::Collision, Sampling::Equiangular, Sampling::Mis};
+constexpr std::array kSamplings = {Sampling::Auto, Sampling::Collision, Sampling::Equiangular, Sampling::Mis};
 
 std::string nameOf(Sampling s) {
-  return s == Sampling::Collision ? "collision" : s == Sampling::Equiangular ? "equiangular" : "mis";
+  return s == Sampling::Auto          ? "auto"
+         : s == Sampling::Collision   ? "collision"
+         : s == Sampling::Equiangular ? "equiangular"
+                                      : "mis";
 }
 
 /// A scene with its camera ray.
@@ -211,7 +214,7 @@ TEST(MediumLightSampling, AllAgreeInOverlappingColouredSmokeAtEveryDepth) {
   const Case c = smoke();
   for (const int depth : {1, 4}) {
     const Estimates collision = singleScattering(c, Sampling::Collision, 1 << 16, depth);
-    for (const Sampling sampling : {Sampling::Equiangular, Sampling::Mis}) {
+    for (const Sampling sampling : {Sampling::Auto, Sampling::Equiangular, Sampling::Mis}) {
       const Estimates e = singleScattering(c, sampling, 1 << 16, depth, 2);
       for (const auto& [a, b] :
            {std::pair{&collision.red, &e.red}, {&collision.green, &e.green}, {&collision.blue, &e.blue}}) {
@@ -267,17 +270,24 @@ TEST(MediumLightSampling, ChangesNothingWithoutSuchALight) {
   kit.sky(1);
   const Case c{kit.finish(), rayOf({0.3f, 0.2f, 5}, {0.05f, 0.02f, -1})};
   const Estimates collision = singleScattering(c, Sampling::Collision, 64, 5);
-  for (const Sampling sampling : {Sampling::Equiangular, Sampling::Mis}) {
+  for (const Sampling sampling : {Sampling::Auto, Sampling::Equiangular, Sampling::Mis}) {
     const Estimates e = singleScattering(c, sampling, 64, 5);
     EXPECT_EQ(collision.values, e.values);
     EXPECT_EQ(collision.counters.shadowRays, e.counters.shadowRays);
   }
 }
 
-TEST(MediumLightSampling, HalvesTheNoiseOfALightInThinFog) {
-  const Case c = slab(Rgb(0), Rgb(0.02f), [](SceneKit& kit) { kit.pointLight({0, 0.2f, 0}, 2); });
-  EXPECT_LT(singleScattering(c, Sampling::Mis, 1 << 14).red.standardError(),
-            0.1 * singleScattering(c, Sampling::Collision, 1 << 14).red.standardError());
+TEST(MediumLightSampling, IsQuietInThinFogAndNotNoisierInDense) {
+  const auto noise = [](float sigma, Point3f light, Sampling sampling) {
+    const Case c = slab(Rgb(0), Rgb(sigma), [&](SceneKit& kit) { kit.pointLight(light, 2); });
+    return singleScattering(c, sampling, 1 << 14).red.standardError();
+  };
+  const Point3f near{0, 0.2f, 0}, far{0, 30, 40};
+  for (const Sampling sampling : {Sampling::Auto, Sampling::Equiangular, Sampling::Mis}) {
+    EXPECT_LT(noise(0.02f, near, sampling), 0.1 * noise(0.02f, near, Sampling::Collision));
+  }
+  EXPECT_LT(noise(10, far, Sampling::Auto), 1.05 * noise(10, far, Sampling::Collision));
+  EXPECT_GT(noise(10, far, Sampling::Equiangular), 1.5 * noise(10, far, Sampling::Collision));
 }
 
 TEST(PositionLights, DensitiesOfManyLightsAreThoseThatAreSampled) {
@@ -296,9 +306,9 @@ TEST(PositionLights, DensitiesOfManyLightsAreThoseThatAreSampled) {
     const Ray ray = rayOf({0, 0, -1}, {0, 0.1f, 1});
     RunningStats volume;  // the mean of 1/pdf is the length for each light
     for (int i = 0; i < 20000; ++i) {
-      const auto choice = sampled.sample(ray, 0.5, 4, rng.uniform(), rng.uniform());
+      const auto choice = sampled.sample({ray, 0.5, 4}, rng.uniform(), rng.uniform());
       ASSERT_TRUE(choice);
-      EXPECT_NEAR(sampled.pdf(choice->light, ray, 0.5, 4, choice->t), choice->pdf, 1e-6 * choice->pdf);
+      EXPECT_NEAR(sampled.pdf(choice->light, {ray, 0.5, 4}, choice->t), choice->pdf, 1e-6 * choice->pdf);
       volume.add(1 / choice->pdf);
     }
     const ZTest test = zTest(volume, 3.5 * count);

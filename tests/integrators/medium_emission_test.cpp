@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Media that emit, against closed forms: found by distance and, where they are lights, by light samples.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "integrators/medium_light.h"
+#include "media/emission_patterns.h"
+#include "media/grid_medium.h"
+#include "scene_kit.h"
+#include "spectrum/spectrum.h"
+
+namespace pbrtmedia {
+namespace {
+
+using namespace test;
+
+/// Coefficients, and how they are stored.
+struct Gas {
+  Rgb sigmaA, sigmaS, le;
+  enum class Storage { Homogeneous, Grid } storage = Storage::Homogeneous;
+};
+constexpr std::array kStorages = {Gas::Storage::Homogeneous, Gas::Storage::Grid};
+
+/// A grid reaches over [-3, 3]^3, beyond every boundary of these tests.
+const Medium* make(SceneKit& kit, const Gas& gas, const std::string& name = "gas", OverlapRule overlap = {}) {
+  GridMediumParams p;
+  p.name = name;
+  p.sigmaA = gas.sigmaA;
+  p.sigmaS = gas.sigmaS;
+  p.le = gas.le;
+  p.overlap = overlap;
+  if (gas.storage == Gas::Storage::Homogeneous) {
+    return kit.builder.own(std::make_unique<HomogeneousMedium>(p));
+  }
+  p.grid.nx = p.grid.ny = p.grid.nz = 5;
+  p.grid.density.assign(125, 1.0f);
+  p.grid.border = GridBorder::Clamp;
+  p.grid.p0 = {-3, -3, -3};
+  p.grid.p1 = {3, 3, 3};
+  return kit.builder.own(makeGridMedium(p, Transform()));
+}
+
+const Ray kDown = rayOf({0.1f, 0.2f, 5}, {0, 0, -1});
+
+Estimates throughSlab(const Gas& gas, float thickness, std::uint64_t n, int maxDepth = 0) {
+  SceneKit kit;
+  const Medium* medium = make(kit, gas);
+  kit.builder.addPrimitive({.shape = kit.box({-2, -2, 0}, {2, 2, thickness}), .media = {medium, nullptr}});
+  const auto scene = kit.finish();
+  return estimate(*makeVolPath(*scene, {.maxDepth = maxDepth}), kDown, n);
+}
+
+TEST(MediumEmission, SlabEmitsWhatItAbsorbs) {
+  for (const auto storage : kStorages) {
+    for (const float thickness : {0.01f, 1.0f, 2.5f}) {
+      const Gas gas{Rgb(0.3f, 2, 10), Rgb(0), Rgb(1, 5, 0.2f), storage};
+      const Estimates e = throughSlab(gas, thickness, 1 << 15);
+      const RunningStats* channels[] = {&e.red, &e.green, &e.blue};
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double truth = double{gas.le[c]} * -std::expm1(-double{gas.sigmaA[c]} * double{thickness});
+        const ZTest test = zTest(*channels[c], truth);
+        EXPECT_LT(std::abs(test.z()), kMaxAbsZ)
+            << "thickness " << thickness << ", channel " << c << ": " << test;
+      }
+      EXPECT_EQ(e.counters.droppedTotal(), 0u);
+    }
+  }
+}
+
+TEST(MediumEmission, GreyHomogeneousSlabHasNoNoiseAtAll) {
+  const Estimates e = throughSlab({Rgb(3), Rgb(0), Rgb(2)}, 1, 64);
+  for (const Rgb value : e.values) EXPECT_NEAR(value.r, 2 * (1 - std::exp(-3.0)), 1e-6);
+}
+
+TEST(MediumEmission, ThinBrightGasIsWithinAPercentAtSixtyFourSamples) {
+  for (const auto storage : kStorages) {
+    const Estimates e = throughSlab({Rgb(1e-6f), Rgb(0), Rgb(1e6f), storage}, 1, 1 << 12);
+    EXPECT_NEAR(e.red.mean(), 1, 1e-3);
+    EXPECT_LT(std::sqrt(e.red.variance() / 64), 0.01);
+  }
+}
+
+TEST(MediumEmission, HotFurnaceIsWhite) {
+  for (const double sigmaA : {0.01, 1.0}) {
+    for (const double sigmaS : {0.0, 0.3, 3.0}) {
+      for (const auto storage : kStorages) {
+        SceneKit kit;
+        const Gas gas{Rgb(static_cast<float>(sigmaA)), Rgb(static_cast<float>(sigmaS)), Rgb(1), storage};
+        const Medium* medium = make(kit, gas);
+        kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 1.5f), .media = {medium, nullptr}});
+        kit.builder.addPrimitive({.shape = kit.sphere({0.3f, 0, 0}, 0.4f), .material = kit.matte(1)});
+        kit.sky(1);
+        const auto scene = kit.finish();
+        EXPECT_EQ(scene->lightsWithMedia().size(), 2u);
+        const ZTest test = zTest(
+            estimate(*makeVolPath(*scene, {.maxDepth = 100000}), rayOf({0.3f, 0.2f, 5}, {0, 0, -1}), 1 << 12)
+                .red,
+            1);
+        EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << sigmaA << ' ' << sigmaS << ": " << test;
+        EXPECT_LT(test.standardError, 0.05) << "a bias of a quarter must be seen";
+      }
+    }
+  }
+}
+
+/// A floor under a glowing ball, seen from above. `placed`: the ball is in an object, whose media are no
+/// lights: scattered rays alone find it.
+std::unique_ptr<Scene> glowingBall(const Gas& gas, bool placed) {
+  SceneKit kit;
+  const Medium* medium = make(kit, gas);
+  const Shape* ball = kit.sphere({0, 0, 0}, 1);
+  if (placed) {
+    const auto object = kit.builder.addObject({{.shape = ball, .media = {medium, nullptr}}});
+    kit.builder.addInstance(object, AnimatedTransform(Transform()));
+  } else {
+    kit.builder.addPrimitive({.shape = ball, .media = {medium, nullptr}});
+  }
+  kit.builder.addPrimitive({.shape = kit.square(-2, 10), .material = kit.matte(0.5f)});
+  return kit.finish();
+}
+const Ray kAtFloor = rayOf({2, 0, -1}, {-2, 0, -1});  // reaches it below the ball's centre
+
+TEST(MediumEmission, FloorUnderAGlowingBallEqualsQuadrature) {
+  const double sigma = 0.7, h = 2, kd = 0.5;
+  double truth = 0;
+  constexpr int kSteps = 100000;
+  const double edge = std::asin(1 / h);
+  for (int i = 0; i < kSteps; ++i) {
+    const double a = (i + 0.5) * edge / kSteps, s = std::sin(a);
+    const double chord = 2 * std::sqrt(std::max(0.0, 1 - h * h * s * s));
+    truth += kd * 2 * std::cos(a) * s * 3 * -std::expm1(-sigma * chord) * edge / kSteps;
+  }
+  for (const auto storage : kStorages) {
+    const Gas gas{Rgb(static_cast<float>(sigma)), Rgb(0), Rgb(3), storage};
+    const auto lit = glowingBall(gas, false), unlit = glowingBall(gas, true);
+    EXPECT_EQ(lit->lightsWithMedia().size(), 1u);
+    EXPECT_EQ(unlit->lightsWithMedia().size(), 0u);
+    const Estimates a = estimate(*makeVolPath(*lit, {.maxDepth = 1}), kAtFloor, 1 << 17),
+                    b = estimate(*makeVolPath(*unlit, {.maxDepth = 1}), kAtFloor, 1 << 17, 2);
+    const ZTest with = zTest(a.red, truth), without = zTest(b.red, truth);
+    EXPECT_LT(std::abs(with.z()), kMaxAbsZ) << with;
+    EXPECT_LT(std::abs(without.z()), kMaxAbsZ) << without;
+    EXPECT_LT(with.standardError, without.standardError) << "light samples must help";
+    // Negative control: light samples and scattered rays without their weights count twice.
+    EXPECT_GT(zTest(a.red, truth / 2).z(), kMaxAbsZ);
+    EXPECT_GT(zTest(a.red, truth * 0.97).z(), kMaxAbsZ) << "three percent are seen";
+  }
+}
+
+TEST(MediumEmission, EverySelectionStrategyFindsTheGas) {
+  const auto build = [] {
+    SceneKit kit;
+    const Medium* medium = make(kit, {Rgb(0.5f), Rgb(1), Rgb(2), Gas::Storage::Grid});
+    kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 1), .media = {medium, nullptr}});
+    kit.builder.addPrimitive({.shape = kit.square(-2, 10), .material = kit.matte(0.5f)});
+    kit.pointLight({3, 0, 2}, 5);
+    kit.sky(0.1f);
+    return kit.finish();
+  };
+  const auto scene = build();
+  const PathParams params{.maxDepth = 4};
+  const Estimates uniform = estimate(*makeVolPath(*scene, params), kAtFloor, 1 << 15);
+  for (const LightStrategy strategy : {LightStrategy::Power, LightStrategy::Spatial}) {
+    const VolPathIntegrator integrator(*scene, params,
+                                       makeLightSelector(strategy, scene->lightsWithMedia(), scene->bounds()),
+                                       CameraMedium(*scene, kFarAway, 0, nullptr));
+    const ZTest same = zTest(estimate(integrator, kAtFloor, 1 << 15, 2).red, uniform.red);
+    EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
+  }
+}
+
+TEST(MediumEmission, LightSamplingDoesNotChangeTheMeanOfScatteringGas) {
+  for (const auto storage : kStorages) {
+    const Gas gas{Rgb(0.5f, 0.2f, 1), Rgb(2, 1, 0.5f), Rgb(1, 2, 3), storage};
+    const PathParams params{.maxDepth = 6};
+    const Estimates a = estimate(*makeVolPath(*glowingBall(gas, false), params), kDown, 1 << 15),
+                    b = estimate(*makeVolPath(*glowingBall(gas, true), params), kDown, 1 << 15, 2);
+    for (const auto& [x, y] : {std::pair{&a.red, &b.red}, {&a.green, &b.green}, {&a.blue, &b.blue}}) {
+      const ZTest same = zTest(*x, *y);
+      EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
+    }
+  }
+}
+
+TEST(MediumEmission, OverlappingGasesAddUp) {
+  const OverlapRule add{OverlapRule::Mode::Add};
+  const auto build = [&](bool split) {
+    SceneKit kit;
+    const Shape* ball = kit.sphere({0, 0, 0}, 1);
+    if (split) {
+      for (const auto storage : kStorages) {
+        const Medium* part = make(kit, {Rgb(0.4f), Rgb(0.5f), Rgb(2), storage},
+                                  storage == Gas::Storage::Grid ? "a" : "b", add);
+        kit.builder.addPrimitive({.shape = ball, .media = {part, nullptr}});
+        ball = kit.sphere({0, 0, 0}, 1);
+      }
+    } else {
+      kit.builder.addPrimitive({.shape = ball, .media = {make(kit, {Rgb(0.8f), Rgb(1), Rgb(2)}), nullptr}});
+    }
+    kit.builder.addPrimitive({.shape = kit.square(-2, 10), .material = kit.matte(0.5f)});
+    return kit.finish();
+  };
+  const auto one = build(false), two = build(true);
+  for (const Ray& ray : {kDown, kAtFloor}) {
+    const ZTest same = zTest(estimate(*makeVolPath(*one), ray, 1 << 15).red,
+                             estimate(*makeVolPath(*two), ray, 1 << 15, 2).red);
+    EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
+  }
+}
+
+TEST(MediumEmission, VaryingDensityAndPatternEqualQuadrature) {
+  SceneKit kit;
+  GridMediumParams p;
+  p.name = "fire";
+  p.sigmaA = Rgb(1.5f);
+  p.sigmaS = Rgb(0);
+  p.le = Rgb(2);
+  p.grid.nx = p.grid.ny = p.grid.nz = 3;
+  GridField::Params factors = p.grid;
+  for (int i = 0; i < 27; ++i) {
+    p.grid.density.push_back(static_cast<float>(i % 4));
+    factors.density.push_back(i % 3 == 0 ? 0.0f : static_cast<float>(i % 5));
+  }
+  p.grid.p0 = factors.p0 = {-1, -1, -1};
+  p.grid.p1 = factors.p1 = {1, 1, 1};
+  p.emissionPattern = makeScalePattern(factors, Transform());
+  const Medium* fire = kit.builder.own(makeGridMedium(p, Transform()));
+  kit.builder.addPrimitive({.shape = kit.box({-1, -1, -1}, {1, 1, 1}), .media = {fire, nullptr}});
+  const auto scene = kit.finish();
+  const GridField density(p.grid, Transform()), factor(factors, Transform());
+  double truth = 0, depth = 0;
+  constexpr int kSteps = 20000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double step = 2.0 / kSteps;
+    const Point3f x{0.1f, 0.2f, static_cast<float>(1 - (i + 0.5) * step)};
+    const double sigma = 1.5 * double{density.densityAt(x)};
+    truth += std::exp(-depth - sigma * step / 2) * sigma * 2 * double{factor.densityAt(x)} * step;
+    depth += sigma * step;
+  }
+  const ZTest test = zTest(estimate(*makeVolPath(*scene, {.maxDepth = 0}), kDown, 1 << 15).red, truth);
+  EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+}
+
+TEST(MediumEmission, TemperatureGridEqualsConstantBlackBody) {
+  for (const float kelvin : {1000.0f, 3000.0f, 6500.0f}) {
+    SceneKit kit;
+    GridMediumParams p;
+    p.name = "fire";
+    p.sigmaA = Rgb(2);
+    p.sigmaS = Rgb(0);
+    p.le = Rgb(3);
+    p.grid.nx = p.grid.ny = p.grid.nz = 2;
+    p.grid.border = GridBorder::Clamp;
+    p.grid.density.assign(8, 1.0f);
+    p.grid.p0 = {-1, -1, 0};
+    p.grid.p1 = {1, 1, 1};
+    GridField::Params temperatures = p.grid;
+    temperatures.density.assign(8, 20 + kelvin / 1000);
+    p.emissionPattern = makeBlackbodyPattern(temperatures, {.scale = 1000, .offset = 20}, Transform());
+    const Medium* fire = kit.builder.own(makeGridMedium(p, Transform()));
+    kit.builder.addPrimitive({.shape = kit.box({-1, -1, 0}, {1, 1, 1}), .media = {fire, nullptr}});
+    const auto scene = kit.finish();
+    const Rgb expected = blackbodyToRgb(kelvin, 3).nonNegative() * static_cast<float>(-std::expm1(-2.0));
+    const Estimates e = estimate(*makeVolPath(*scene, {.maxDepth = 0}), kDown, 1 << 14);
+    const RunningStats* channels[] = {&e.red, &e.green, &e.blue};
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(channels[c]->mean(), double{expected[c]},
+                  kMaxAbsZ * channels[c]->standardError() + 1e-3 * double{expected.max()})
+          << kelvin << " K, channel " << c;
+    }
+  }
+}
+
+TEST(MediumEmission, PathIgnoresIt) {
+  const auto scene = glowingBall({Rgb(1), Rgb(0), Rgb(5)}, false);
+  EXPECT_EQ(estimate(*makePath(*scene), kAtFloor, 64).red.mean(), 0);
+  EXPECT_TRUE(scene->lights().empty());
+}
+
+TEST(MediumLight, DensitiesAreThoseOfItsSamples) {
+  SceneKit kit;
+  GridMediumParams p;
+  p.name = "fire";
+  p.sigmaA = Rgb(1);
+  p.le = Rgb(1);
+  p.bounds.cells = std::array{4, 4, 4};
+  p.grid.nx = p.grid.ny = p.grid.nz = 8;
+  for (int i = 0; i < 512; ++i) p.grid.density.push_back(static_cast<float>(i % 64 > 40 ? i % 7 : 0));
+  p.grid.p0 = {-1, -2, -1};
+  p.grid.p1 = {1, 2, 3};
+  const Medium* fire = kit.builder.own(makeGridMedium(p, Transform::rotate(30, {1, 2, 3})));
+  const MediumLight light(*fire, fire->emissionVolume({}));
+  const Point3f x{4, 1, 2};
+  Rng rng(3);
+  RunningStats total;
+  for (int i = 0; i < 1 << 16; ++i) {
+    const LightSample s = light.sample(x, {rng.uniform(), rng.uniform()});
+    ASSERT_GT(s.pdf, 0);
+    if (i < 1000) {
+      EXPECT_NEAR(light.pdfAt(x, s.wi, double{s.distance}), s.pdf, 1e-4 * s.pdf) << i;
+      if (s.radiance.r > 0) {
+        EXPECT_GT(light.distancePdf(x, s.wi, double{s.distance}), 0) << i;
+      }
+    }
+    total.add(double{s.radiance.r} * sqr(double{s.distance}) / double{s.pdf});
+  }
+  // The integral of sigma_a Le over the volume, by a midpoint rule.
+  RenderCounters counters;
+  double truth = 0;
+  constexpr int kSteps = 64;
+  const Transform place = Transform::rotate(30, {1, 2, 3});
+  for (int k = 0; k < kSteps; ++k) {
+    for (int j = 0; j < kSteps; ++j) {
+      for (int i = 0; i < kSteps; ++i) {
+        const Vec3d local{-1 + 2 * (i + 0.5) / kSteps, -2 + 4 * (j + 0.5) / kSteps,
+                          -1 + 4 * (k + 0.5) / kSteps};
+        truth += double{fire->at(Point3f(place.point(local)), counters).emission.r};
+      }
+    }
+  }
+  truth *= 32.0 / (kSteps * kSteps * kSteps);
+  EXPECT_NEAR(total.mean(), truth, kMaxAbsZ * total.standardError() + 1e-3 * truth);
+}
+
+}  // namespace
+}  // namespace pbrtmedia
