@@ -57,6 +57,8 @@ class LearnedBounds {
     cut_[cell].fetch_add(1, std::memory_order_relaxed);
     return limit;
   }
+  /// Nothing was published yet, or the last publication raised some bound.
+  bool isExploring() const { return progress_.passes == 0 || progress_.raised > 0; }
   /// Puts what was proposed into force. Not thread-safe.
   void publish();
   LearningProgress progress() const { return progress_; }

@@ -73,6 +73,7 @@ class FieldMedium final : public Medium {
     if (hasNaN(segment)) return kNaN;
     const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
     if (!line) return Rgb(1.0f);
+    explore(*line, rng, counters);
     return sigmaT_.isGrey()
                ? estimate(*line, segment, Channels<1>{sigmaT_.r}, rng, counters)
                : estimate(*line, segment, Channels<3>{sigmaT_.r, sigmaT_.g, sigmaT_.b}, rng, counters);
@@ -82,6 +83,7 @@ class FieldMedium final : public Medium {
     if (hasNaN(segment)) return {.weight = kNaN};
     const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
     if (!line) return {};
+    explore(*line, rng, counters);
     FreeFlight flight =
         sigmaT_.isGrey() ? fly(*line, segment, Channels<1>{sigmaT_.r}, rng, counters)
                          : fly(*line, segment, Channels<3>{sigmaT_.r, sigmaT_.g, sigmaT_.b}, rng, counters);
@@ -238,6 +240,16 @@ class FieldMedium final : public Medium {
         [&](const auto& estimator) { return estimateOn(estimator, line, sigmaT, stream); }, estimator_);
     count(line, segment, result.tally, counters);
     return toRgb(result.value);
+  }
+
+  /// Learned bounds grow where somebody looks. While they still do, every segment looks once more, at a
+  /// random point: thin first bounds alone would hardly ever look. It changes no estimate of the pass.
+  void explore(const FieldLine<Field>& line, Rng& rng, RenderCounters& counters) const {
+    if constexpr (requires { field_.learned(); }) {
+      if (field_.learned() == nullptr || !field_.learned()->isExploring()) return;
+      static_cast<void>(line.density(line.length() * rng.uniformDouble()));
+      ++counters.densityLookups;
+    }
   }
 
   /// Adds what a segment cost, and notes an example of a violated bound if there is none yet.

@@ -41,6 +41,20 @@ TEST(LearnedBounds, CutToTheBoundInForceAndRaiseItOnlyWhenPublished) {
   EXPECT_EQ(bounds.progress().cells, 8u);
 }
 
+TEST(LearnedBounds, ExploreUntilAPassRaisesNothing) {
+  LearnedBounds bounds(lattice(2), {.initial = .5f, .epsilon = .25f});
+  EXPECT_TRUE(bounds.isExploring());
+  bounds.bounded({.5, .5, .5}, 2);
+  bounds.publish();
+  EXPECT_TRUE(bounds.isExploring());
+  bounds.bounded({.5, .5, .5}, 2);
+  bounds.publish();
+  EXPECT_FALSE(bounds.isExploring());
+  bounds.bounded({1.5, .5, .5}, 2);
+  bounds.publish();
+  EXPECT_TRUE(bounds.isExploring()) << "a new find";
+}
+
 TEST(LearnedBounds, NeverFallAndBoundWhatWasSeen) {
   LearnedBounds bounds(lattice(4), {.initial = .01f, .epsilon = .01f});
   Rng rng(kSeed);
