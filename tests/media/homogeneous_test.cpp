@@ -20,7 +20,7 @@ using test::zTest;
 constexpr std::uint64_t kSeed = 20240610;
 
 HomogeneousMedium medium(Rgb sigmaA, Rgb sigmaS) {
-  return HomogeneousMedium({"fog", sigmaA, sigmaS, {PhaseLobe{}}, {}});
+  return HomogeneousMedium({.name = "fog", .sigmaA = sigmaA, .sigmaS = sigmaS, .overlap = {}});
 }
 Segment ofLength(double length) { return {{1, 2, 3}, {0, 0, 1}, .5, .5 + length}; }
 
@@ -140,7 +140,8 @@ TEST(HomogeneousMedium, RefusesCoefficientsThatAreNone) {
   EXPECT_THROW(medium(Rgb(1), Rgb(1, std::numeric_limits<float>::quiet_NaN(), 1)), SceneError);
   EXPECT_THROW(medium(Rgb(kInfinity), Rgb(1)), SceneError);
   EXPECT_THROW(medium(Rgb(3e38f), Rgb(3e38f)), SceneError);
-  EXPECT_THROW(HomogeneousMedium({"fog", Rgb(1), Rgb(1), {PhaseLobe{.g = 1.5f}}, {}}), SceneError);
+  EXPECT_THROW(HomogeneousMedium({.name = "fog", .phase = {PhaseLobe{.g = 1.5f}}, .overlap = {}}),
+               SceneError);
 }
 
 }  // namespace

@@ -35,22 +35,46 @@ struct Rendered {
   std::string warnings;  ///< of parsing and construction
 };
 
-inline Rendered renderDescription(SceneDescription& description, const RenderSettings& settings,
-                                  Diagnostics& diagnostics) {
-  const ThreadLimit threads(settings.threads);
+inline Construction constructDescription(SceneDescription& description, const RenderSettings& settings,
+                                         Diagnostics& diagnostics) {
   ConstructOptions options;
   options.outfile = "unused.exr";
   options.seed = settings.seed;
   options.samplesPerPixel = settings.samplesPerPixel;
   std::optional<Construction> scene = construct(description, options, diagnostics);
   if (!scene) throw std::runtime_error(diagnostics.format());
+  return std::move(*scene);
+}
+
+/// The one world of a text. Throws std::runtime_error with all messages when it is not a good scene.
+inline SceneDescription parsedWorld(const std::string& text, const std::filesystem::path& folder,
+                                    Diagnostics& diagnostics) {
+  std::vector<SceneDescription> worlds = parseText(text, "test.pbrt", folder, diagnostics);
+  if (diagnostics.hasErrors() || worlds.size() != 1)
+    throw std::runtime_error("no scene: " + diagnostics.format());
+  return std::move(worlds.front());
+}
+
+/// Ready to take samples of. Throws as parsedWorld.
+inline Construction constructText(const std::string& text, const RenderSettings& settings = {},
+                                  const std::filesystem::path& folder = ".") {
+  Diagnostics diagnostics;
+  SceneDescription world = parsedWorld(text, folder, diagnostics);
+  return constructDescription(world, settings, diagnostics);
+}
+
+inline Rendered renderDescription(SceneDescription& description, const RenderSettings& settings,
+                                  Diagnostics& diagnostics) {
+  const ThreadLimit threads(settings.threads);
+  const Construction scene = constructDescription(description, settings, diagnostics);
   RenderOptions loop;
   loop.seed = settings.seed;
   loop.tileSize = settings.tileSize;
-  loop.pixelBounds = scene->pixelBounds;
+  loop.pixelBounds = scene.pixelBounds;
+  loop.learners = scene.scene->learners();
   Rendered rendered;
-  rendered.result = renderFilm(*scene->camera, *scene->sampler, *scene->integrator, *scene->film, loop);
-  rendered.image = scene->film->develop();
+  rendered.result = renderFilm(*scene.camera, *scene.sampler, *scene.integrator, *scene.film, loop);
+  rendered.image = scene.film->develop();
   rendered.warnings = diagnostics.format();
   return rendered;
 }
@@ -59,10 +83,8 @@ inline Rendered renderDescription(SceneDescription& description, const RenderSet
 inline Rendered renderText(const std::string& text, const RenderSettings& settings = {},
                            const std::filesystem::path& folder = ".") {
   Diagnostics diagnostics;
-  std::vector<SceneDescription> worlds = parseText(text, "test.pbrt", folder, diagnostics);
-  if (diagnostics.hasErrors() || worlds.size() != 1)
-    throw std::runtime_error("no scene: " + diagnostics.format());
-  return renderDescription(worlds.front(), settings, diagnostics);
+  SceneDescription world = parsedWorld(text, folder, diagnostics);
+  return renderDescription(world, settings, diagnostics);
 }
 
 inline Rendered renderFile(const std::filesystem::path& path, const RenderSettings& settings = {}) {

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Every unbiased transmittance estimator with every unbiased free-flight sampler on every class of medium
+// makes the same image, pixel by pixel.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "freeflight/any_sampler.h"
+#include "support/render_scene.h"
+#include "transmittance/any_estimator.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+constexpr int kResolution = 4;
+constexpr std::uint64_t kSeed = 20260801;
+constexpr double kTooBright = 1.1;  ///< what a pair must not get away with
+constexpr std::int64_t kSamples = 512,
+                       kTrueSamples = 16384;  ///< per pixel: of each pair, of what they are compared with
+
+/// A class of medium: its name and the parameters that define its density in [-1, 1]^3.
+struct MediumClass {
+  std::string_view name;
+  std::string parameters;
+  bool isPiecewiseCubic;  ///< serves estimators and samplers that ask for pieces
+  friend std::ostream& operator<<(std::ostream& os, const MediumClass& m) { return os << m.name; }
+};
+
+std::string gridParameters() {
+  std::ostringstream os;
+  os << R"("string type" "heterogeneous" "integer nx" 4 "integer ny" 4 "integer nz" 4
+     "point p0" [ -1 -1 -1 ] "point p1" [ 1 1 1 ] "float density" [ )";
+  Rng rng(5);
+  for (int i = 0; i < 64; ++i) os << (i % 5 == 0 ? 0 : 4 * rng.uniform()) << ' ';
+  os << "] ";
+  return os.str();
+}
+
+const std::string kBox = R"("point p0" [ -1 -1 -1 ] "point p1" [ 1 1 1 ] )";
+
+std::vector<MediumClass> mediumClasses() {
+  return {
+      {"heterogeneous", gridParameters(), true},
+      {"heterogeneousBoundedByLearning",
+       gridParameters() + R"("string bounds" "progressive" "float initialextinction" 100 )", false},
+      {"perlin",
+       R"("string type" "perlin" "integer octaves" 3 "float frequency" 1.5 "float threshold" 0.3 "integer supervoxels" 8 )" +
+           kBox,
+       false},
+      {"analytic",
+       R"("string type" "analytic" "string function" "sphere" "float radius" 0.9 "float edge" 0.6 )" + kBox,
+       false},
+      {"texture",
+       R"("string type" "texture" "texture density" "blocks" "string bounds" "constant" "float majorant" 3 )" +
+           kBox,
+       false},
+  };
+}
+
+/// Environment and a point light around the medium, seen by a camera that looks past its corner; three
+/// bounces.
+std::string sceneOf(const MediumClass& mediumClass, std::string_view estimator, std::string_view sampler,
+                    double light = 1) {
+  std::ostringstream os;
+  os << "Film \"image\" \"integer xresolution\" " << kResolution << " \"integer yresolution\" " << kResolution
+     << R"( "string filename" "unused.exr"
+Sampler "random" "integer pixelsamples" 64
+Integrator "volpath" "integer maxdepth" 3
+LookAt 2 1.5 -4  0.2 0.1 0  0 1 0
+Camera "perspective" "float fov" 30
+WorldBegin
+LightSource "infinite" "rgb L" [ 0.04 0.05 0.06 ] "rgb scale" [ )"
+     << light << ' ' << light << ' ' << light << R"( ]
+LightSource "point" "point from" [ 1.5 2 -1 ] "rgb I" [ 12 9 6 ] "rgb scale" [ )"
+     << light << ' ' << light << ' ' << light << R"( ]
+Texture "blocks" "float" "checkerboard" "integer dimension" 3 "float tex1" 0.2 "float tex2" 2
+)"
+     << "MakeNamedMedium \"m\" \"rgb sigma_a\" [ 0.2 0.2 0.2 ] \"rgb sigma_s\" [ 1 1 1 ] \"float g\" 0.3 "
+        "\"string transmittance\" \""
+     << estimator << "\" \"string freeflight\" \"" << sampler << "\" " << mediumClass.parameters << '\n'
+     << mediumBox("m", {-1, -1, -1}, {1, 1, 1}) << "WorldEnd\n";
+  return os.str();
+}
+
+using Pixels = std::vector<RunningStats>;
+
+/// Green radiance of `samples` samples of every pixel.
+Pixels takeSamples(const std::string& text, std::int64_t samples, std::uint64_t seed) {
+  const Construction scene = constructText(text);
+  const std::unique_ptr<Sampler> sampler = scene.sampler->clone();
+  RenderCounters counters;
+  Pixels pixels;
+  for (int y = 0; y < kResolution; ++y) {
+    for (int x = 0; x < kResolution; ++x) {
+      RunningStats& stats = pixels.emplace_back();
+      for (std::int64_t i = 0; i < samples; ++i) {
+        const Rgb radiance =
+            renderSample(*scene.camera, *sampler, *scene.integrator, {x, y}, i, samples, seed, counters);
+        stats.add(static_cast<double>(radiance.g));
+      }
+    }
+  }
+  return pixels;
+}
+
+/// Difference of two images at one pixel. Few samples of a skewed estimate may show too little of its
+/// variance: then that of the other image, which has many, counts.
+ZTest difference(const RunningStats& a, const RunningStats& truth) {
+  const double variance = std::max(a.variance(), truth.variance());
+  return {a.mean(), truth.mean(), std::sqrt(variance / static_cast<double>(a.count())), truth.standardError(),
+          kSeed,    a.count()};
+}
+
+class Agreement : public testing::TestWithParam<MediumClass> {};
+
+TEST_P(Agreement, OfEveryEstimatorWithEverySampler) {
+  const MediumClass& mediumClass = GetParam();
+  const Pixels truth = takeSamples(sceneOf(mediumClass, "ratio", "delta"), kTrueSamples, kSeed);
+  RunningStats truthMean;
+  for (const RunningStats& pixel : truth) truthMean.add(pixel);
+  EXPECT_LT(truthMean.standardError(), 0.01 * truthMean.mean());
+  int pairs = 0;
+  for (const std::string_view estimatorName : estimatorNames()) {
+    const EstimatorTraits estimator = traitsOf(*findEstimator(estimatorName));
+    if (estimator.bias != EstimatorTraits::Bias::Unbiased || !estimator.laws.has(ExponentialLaw{}) ||
+        (estimator.needsPieces && !mediumClass.isPiecewiseCubic)) {
+      continue;
+    }
+    for (const std::string_view samplerName : samplerNames()) {
+      const SamplerTraits sampler = traitsOf(*findSampler(samplerName));
+      if (sampler.bias != EstimatorTraits::Bias::Unbiased ||
+          (sampler.needsPieces && !mediumClass.isPiecewiseCubic))
+        continue;
+      const Pixels image = takeSamples(sceneOf(mediumClass, estimatorName, samplerName), kSamples,
+                                       hashCombine(kSeed, static_cast<std::uint64_t>(++pairs)));
+      double sum = 0, variance = 0, worst = 0;
+      for (std::size_t i = 0; i < image.size(); ++i) {
+        const ZTest test = difference(image[i], truth[i]);
+        worst = std::max(worst, std::abs(test.z()));
+        sum += test.mean - test.truth;
+        variance +=
+            test.standardError * test.standardError + test.truthStandardError * test.truthStandardError;
+      }
+      EXPECT_LT(worst, kMaxAbsZ) << estimatorName << " with " << samplerName;
+      EXPECT_LT(std::abs(sum) / std::sqrt(variance), kMaxAbsZ) << estimatorName << " with " << samplerName;
+    }
+  }
+  EXPECT_GE(pairs, 80);
+}
+
+TEST_P(Agreement, SeesImagesThatAreTooBright) {
+  const Pixels a = takeSamples(sceneOf(GetParam(), "ratio", "delta"), kTrueSamples, kSeed);
+  const Pixels b = takeSamples(sceneOf(GetParam(), "ratio", "delta", kTooBright), kSamples, kSeed + 1);
+  double sum = 0, variance = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const ZTest test = difference(b[i], a[i]);
+    sum += test.mean - test.truth;
+    variance += test.standardError * test.standardError + test.truthStandardError * test.truthStandardError;
+  }
+  EXPECT_GT(std::abs(sum) / std::sqrt(variance), kMaxAbsZ);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllMediumClasses, Agreement, testing::ValuesIn(mediumClasses()),
+                         [](const auto& value) { return std::string(value.param.name); });
+
+}  // namespace
+}  // namespace pbrtmedia::test

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Many orders of scattering against Chandrasekhar's half-space.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "support/chandrasekhar.h"
+#include "support/render_scene.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+TEST(HalfSpaceRadiance, HasItsTabulatedValues) {
+  EXPECT_NEAR(halfSpaceRadiance(0.5, 1), 0.11523, 5e-6);
+  EXPECT_NEAR(halfSpaceRadiance(0.9, 1), 0.41495, 5e-6);
+  EXPECT_NEAR(halfSpaceRadiance(0.99, 1), 0.75272, 5e-6);
+  EXPECT_EQ(halfSpaceRadiance(0, 0.3), 0);
+}
+
+/// A slab of optical thickness 400, as wide as 800 mean free paths each way from its middle, in a white
+/// environment, seen under the cosine mu.
+std::string slabScene(Storage storage, double albedo, double mu) {
+  const double sigmaT = 400, sine = std::sqrt(1 - mu * mu);
+  const Vec3d a{-2, -2, 0}, b{2, 2, 1};
+  std::ostringstream view;
+  view.precision(17);
+  view << "LookAt " << -3 * sine << " 0 " << -3 * mu << "  0 0 0  0 1 0";
+  return pencil(4, 64, R"("volpath" "integer maxdepth" 100000)", view.str()) + "WorldBegin\n" +
+         kWhiteEnvironment + constantMedium(storage, (1 - albedo) * sigmaT, albedo * sigmaT, 0, a, b) +
+         mediumBox("m", a, b) + "WorldEnd\n";
+}
+
+class HalfSpace : public testing::TestWithParam<Storage> {};
+
+TEST_P(HalfSpace, SendsBackWhatChandrasekharFound) {
+  for (const double albedo : {0.5, 0.9, 0.99}) {
+    for (const double mu : {1.0, 0.4}) {
+      const ZTest test = zTestOfMean(slabScene(GetParam(), albedo, mu), halfSpaceRadiance(albedo, mu));
+      EXPECT_LT(std::abs(test.z()), kMaxAbsZ)
+          << nameOf(GetParam()) << ", albedo " << albedo << ", mu " << mu << ": " << test;
+      EXPECT_LT(test.standardError, 0.01);
+    }
+  }
+}
+
+TEST(HalfSpaceScene, TestSeesAnAlbedoThatIsALittleWrong) {
+  const ZTest test = zTestOfMean(slabScene(Storage::Homogeneous, 0.95, 1), halfSpaceRadiance(0.9, 1));
+  EXPECT_GT(std::abs(test.z()), kMaxAbsZ);
+}
+
+std::string testName(const testing::TestParamInfo<Storage>& info) {
+  return std::array{"Homogeneous", "OneVoxel", "Grid64"}.at(static_cast<std::size_t>(info.param));
+}
+INSTANTIATE_TEST_SUITE_P(AllStorages, HalfSpace,
+                         testing::Values(Storage::Homogeneous, Storage::OneVoxel, Storage::Grid64), testName);
+
+}  // namespace
+}  // namespace pbrtmedia::test

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Bounds that are learned while rendering: where the image converges to, and that it depends on nothing else.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/render_scene.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+const std::string kUnknown = " \"string bounds\" \"progressive\" \"float initialextinction\" 0.01 ";
+
+/// A square of parallel rays along z through the unit cube, which holds the medium; white all around.
+std::string cube(int resolution, int spp, const std::string& medium, int maxDepth = 5) {
+  return pencil(resolution, spp, "\"volpath\" \"integer maxdepth\" " + std::to_string(maxDepth),
+                "LookAt .5 .5 -1  .5 .5 1  0 1 0", .45) +
+         "WorldBegin\n" + kWhiteEnvironment + medium + mediumBox("m", {0, 0, 0}, {1, 1, 1}) + "WorldEnd\n";
+}
+
+std::string medium(const std::string& type, double sigmaA, double sigmaS, const std::string& more) {
+  std::ostringstream os;
+  os << "MakeNamedMedium \"m\" \"string type\" \"" << type << "\" \"rgb sigma_a\" [ " << sigmaA << ' '
+     << sigmaA << ' ' << sigmaA << " ] \"rgb sigma_s\" [ " << sigmaS << ' ' << sigmaS << ' ' << sigmaS
+     << " ] " << more << '\n';
+  return os.str();
+}
+
+/// sigma(z) = 0.1 + 1000 exp(-(z - 0.5)² / (2 0.002²)); its optical depth is 0.1 + 2 sqrt(2 pi).
+std::string needle(const std::string& more) {
+  return medium("analytic", 1, 0, "\"string function\" \"needle\" \"integer supervoxels\" [ 1 1 16 ]" + more);
+}
+const double kNeedle = std::exp(-0.1 - 2 * std::sqrt(2 * std::numbers::pi));
+
+std::string perlin(const std::string& more) {
+  return medium(
+      "perlin", 2, 10,
+      "\"integer octaves\" 5 \"float frequency\" 3 \"float threshold\" 0.3 \"integer supervoxels\" 6 " +
+          more);
+}
+
+std::string grid(const std::string& more) {
+  std::string text =
+      "\"string border\" \"clamp\" \"integer nx\" 5 \"integer ny\" 4 \"integer nz\" 6 "
+      "\"float density\" [";
+  for (int i = 0; i < 5 * 4 * 6; ++i) text += i % 7 == 0 ? " 2.5" : i % 3 == 0 ? " 0" : " 0.3";
+  return medium("heterogeneous", 2, 8, text + " ] " + more);
+}
+
+/// Statistics over the pixels, which are independent.
+RunningStats pixelsOf(const Image& image) {
+  RunningStats stats;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) stats.add(static_cast<double>(image.at(x, y, 0)));
+  }
+  return stats;
+}
+
+/// The image of a render that starts with what another one, of another seed, has learned in its passes.
+Rendered continued(const std::string& text, int learningPasses, std::uint64_t seed) {
+  const Construction first = constructText(text, {.seed = seed + 1000, .samplesPerPixel = learningPasses}),
+                     second = constructText(text, {.seed = seed});
+  RenderOptions loop;
+  loop.seed = seed + 1000;
+  loop.learners = first.scene->learners();
+  renderFilm(*first.camera, *first.sampler, *first.integrator, *first.film, loop);
+  loop.seed = seed;
+  loop.learners = second.scene->learners();
+  EXPECT_TRUE(
+      loop.learners[0]->learnedBounds()->restore(first.scene->learners()[0]->learnedBounds()->save()));
+  Rendered rendered;
+  rendered.result = renderFilm(*second.camera, *second.sampler, *second.integrator, *second.film, loop);
+  rendered.image = second.film->develop();
+  return rendered;
+}
+
+TEST(Progressive, FindsANeedleOfUnknownHeight) {
+  const std::string scene = cube(24, 128, needle(kUnknown));
+  const ZTest learned = zTest(pixelsOf(continued(scene, 64, 1).image), kNeedle, 1);
+  EXPECT_LT(std::abs(learned.z()), kMaxAbsZ) << learned;
+  // The average over all passes, from the first on, comes closer with every pass.
+  const double few = imageMean(renderText(scene, {.seed = 3, .samplesPerPixel = 16}).image) - kNeedle,
+               many = imageMean(renderText(scene, {.seed = 3, .samplesPerPixel = 256}).image) - kNeedle;
+  EXPECT_GT(few, .05) << "the first passes do not see the needle";
+  EXPECT_LT(many, few / 8);
+  // Negative control: without publication nothing is learned.
+  const Construction made = constructText(scene, {.seed = 1});
+  RenderOptions loop;
+  loop.seed = 1;
+  renderFilm(*made.camera, *made.sampler, *made.integrator, *made.film, loop);
+  const ZTest unlearned = zTest(pixelsOf(made.film->develop()), kNeedle, 1);
+  EXPECT_GT(std::abs(unlearned.z()), kMaxAbsZ) << unlearned;
+}
+
+struct Case {
+  const char* name;
+  std::string (*medium)(const std::string&);
+  const char* ways;
+};
+
+class ProgressiveImage : public testing::TestWithParam<Case> {};
+
+TEST_P(ProgressiveImage, ConvergesToThatOfExactBounds) {
+  const std::string ways = GetParam().ways;
+  const auto scene = [&](const std::string& bounds) {
+    return cube(16, 64, GetParam().medium(ways + bounds));
+  };
+  RunningStats exact, learned, fresh;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    exact.add(imageMean(renderText(scene(""), {.seed = seed}).image));
+    learned.add(imageMean(continued(scene(kUnknown), 256, seed).image));
+  }
+  for (std::uint64_t seed = 1; seed <= 12; ++seed)
+    fresh.add(imageMean(renderText(scene(kUnknown), {.seed = seed, .samplesPerPixel = 4}).image));
+  const auto z = [&](const RunningStats& a) {
+    return (a.mean() - exact.mean()) / std::hypot(a.standardError(), exact.standardError());
+  };
+  EXPECT_LT(std::abs(z(learned)), kMaxAbsZ) << learned.mean() << " and " << exact.mean();
+  EXPECT_GT(std::abs(z(fresh)), kMaxAbsZ) << "negative control: four passes are no convergence";
+}
+
+TEST_P(ProgressiveImage, AndItsStatisticsDependOnSceneAndSeedAlone) {
+  const std::string scene = cube(21, 7, GetParam().medium(GetParam().ways + kUnknown));
+  const Rendered one = renderText(scene, {.seed = 5, .threads = 1});
+  ASSERT_EQ(one.result.learning.size(), 1u);
+  ASSERT_EQ(one.result.learning[0].passes.size(), 7u);
+  EXPECT_GT(one.result.learning[0].passes[0].cut, 0u);
+  EXPECT_GT(one.result.learning[0].passes[0].raised, 0u);
+  for (const RenderSettings& settings :
+       {RenderSettings{5, 2, 16, {}}, RenderSettings{5, 5, 16, {}}, RenderSettings{5, 2, 4, {}}}) {
+    const Rendered other = renderText(scene, settings);
+    EXPECT_EQ(one.image.data(), other.image.data()) << settings.threads << " threads";
+    EXPECT_EQ(one.result.counters.densityLookups, other.result.counters.densityLookups);
+    for (std::size_t k = 0; k < 7; ++k) {
+      const LearningProgress &a = one.result.learning[0].passes[k], &b = other.result.learning[0].passes[k];
+      EXPECT_EQ(a.cut, b.cut);
+      EXPECT_EQ(a.raised, b.raised);
+      EXPECT_EQ(a.visited, b.visited);
+      EXPECT_EQ(a.maximum, b.maximum);
+    }
+  }
+  EXPECT_NE(one.image.data(), renderText(scene, {.seed = 6}).image.data());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    FieldsAndTrackers, ProgressiveImage,
+    testing::Values(
+        Case{"Perlin", perlin, ""}, Case{"Grid", grid, ""},
+        Case{"GridByResiduals", grid,
+             "\"string transmittance\" \"residual-ratio\" \"string freeflight\" \"decomposition\" "},
+        Case{"PerlinByDelta", perlin, "\"string freeflight\" \"delta\" "},
+        Case{"GridByMarching", grid, "\"string transmittance\" \"unbiased-ray-marching\" "},
+        Case{"PerlinBySingleParticle", perlin, "\"string freeflight\" \"single-particle\" "}),
+    [](const auto& value) { return std::string(value.param.name); });
+
+TEST(Progressive, ASecondRenderStartsWithoutViolations) {
+  const std::string scene = cube(16, 8, grid(kUnknown + "\"float epsilon\" 0.5 "));
+  const std::vector<LearningProgress> first = renderText(scene, {.seed = 2}).result.learning[0].passes,
+                                      second = continued(scene, 64, 2).result.learning[0].passes;
+  EXPECT_GT(first[0].cut, 100u);
+  for (const LearningProgress& pass : second) {
+    EXPECT_EQ(pass.cut, 0u);
+    EXPECT_EQ(pass.raised, 0u);
+  }
+}
+
+TEST(Progressive, TakesAPassOfOneSampleOnlyWhereBoundsAreLearned) {
+  int passes = 0;
+  for (const auto& [bounds, expected] : {std::pair(std::string(), 1), {kUnknown, 8}}) {
+    const Construction made = constructText(cube(8, 8, grid(bounds)));
+    RenderOptions loop;
+    loop.learners = made.scene->learners();
+    passes = 0;
+    loop.afterPass = [&](const RenderProgress&) { return ++passes > 0; };
+    renderFilm(*made.camera, *made.sampler, *made.integrator, *made.film, loop);
+    EXPECT_EQ(passes, expected);
+  }
+}
+
+TEST(Violations, AreReportedWithARayThatFindsThem) {
+  // Density z under a bound of a half: the world stands still, so the ray of the record gives the density.
+  const std::string scene =
+      cube(9, 6,
+           medium("analytic", 1, 1,
+                  "\"string function\" \"ramp\" \"integer supervoxels\" 0 \"string bounds\" \"constant\" "
+                  "\"float majorant\" 1"));
+  const Rendered one = renderText(scene, {.seed = 1, .threads = 1});
+  EXPECT_GT(one.result.counters.boundViolations, 10u);
+  ASSERT_EQ(one.result.violations.size(), 16u);
+  for (const ViolationRecord& v : one.result.violations) {
+    EXPECT_EQ(v.medium, "m");
+    EXPECT_EQ(v.violation.bound, .5);
+    EXPECT_GT(v.violation.density, .5);
+    EXPECT_NEAR(v.violation.o.z + v.violation.t * v.violation.d.z, v.violation.density, 1e-5);
+  }
+  const Rendered other = renderText(scene, {.seed = 1, .threads = 5, .tileSize = 4});
+  ASSERT_EQ(other.result.violations.size(), 16u);
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(one.result.violations[i].pixel, other.result.violations[i].pixel);
+    EXPECT_EQ(one.result.violations[i].sample, other.result.violations[i].sample);
+    EXPECT_EQ(one.result.violations[i].violation.t, other.result.violations[i].violation.t);
+  }
+}
+
+TEST(Violations, OfAConstantBoundLeaveTheMeanAsItIs) {
+  // Of estimates, not of an image: the film keeps negative samples away.
+  const Construction made = constructText(
+      cube(8, 1,
+           medium("analytic", 2, 0,
+                  "\"string function\" \"ramp\" \"string bounds\" \"constant\" \"float majorant\" 1.5 "
+                  "\"integer supervoxels\" 0")));
+  const Medium& m = *made.scene->media()[0];
+  Rng rng(4);
+  RenderCounters counters;
+  const Segment through{{.3f, .6f, -1}, {0, 0, 1}, 0, 5};
+  RunningStats estimates, flights;
+  for (int n = 0; n < 100000; ++n) {
+    estimates.add(static_cast<double>(m.transmittance(through, rng, counters).r));
+    const FreeFlight flight = m.sampleFreeFlight(through, rng, counters);
+    flights.add(flight.collided ? 0 : static_cast<double>(flight.weight.r));
+  }
+  EXPECT_GT(counters.boundViolations, 1000u);
+  for (const RunningStats& stats : {estimates, flights}) {
+    const ZTest test = zTest(stats, std::exp(-1.0), 4);
+    EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+  }
+}
+
+TEST(Pattern, LeavesTheMeanAndLowersTheVariance) {
+  // A point of a disk, lit through an absorbing box: every sample asks for the transmittance of one line.
+  const auto pixels = [&](const std::string& box) {
+    const std::string scene =
+        pencil(32, 64, "\"volpath\" \"integer maxdepth\" 1", "LookAt -2 0 .4  0 0 0  0 0 1") +
+        "WorldBegin\nLightSource \"point\" \"point from\" [ 0 0 3 ] \"rgb I\" [ 9 9 9 ]\n"
+        "Material \"matte\" Shape \"disk\" \"float radius\" .5\n" +
+        box + "WorldEnd\n";
+    return pixelsOf(renderText(scene, {.seed = 4}).image);
+  };
+  const auto through = [&](const std::string& pattern) {
+    return pixels(
+        medium("analytic", 2, 0,
+               "\"string function\" \"slab\" \"float from\" 0 \"float to\" 3 \"point p0\" [ -1 -1 1 ] "
+               "\"point p1\" [ 1 1 2 ] \"integer supervoxels\" 0 \"string bounds\" \"constant\" \"float "
+               "majorant\" 2 \"string transmittance\" \"track-length\" " +
+                   pattern) +
+        mediumBox("m", {-1, -1, 1}, {1, 1, 2}));
+  };
+  const double truth = pixels("").mean() * std::exp(-2.0);
+  const RunningStats independent = through("");
+  EXPECT_LT(std::abs(zTest(independent, truth, 4).z()), kMaxAbsZ) << zTest(independent, truth, 4);
+  for (const std::string name : {"latinhypercube", "hammersley", "halton", "scrambledhalton"}) {
+    const RunningStats stats = through("\"string pattern\" \"" + name + "\"");
+    const ZTest test = zTest(stats, truth, 4);
+    EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << name << test;
+    EXPECT_LT(stats.variance(), .2 * independent.variance()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace pbrtmedia::test
