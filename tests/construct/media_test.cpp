@@ -95,7 +95,7 @@ TEST(ConstructMedium, SaysWhatIsWrongAndWhere) {
        {kHomogeneous + "\"string phase\" [ \"rayleigh\" \"isotropic\" ] \"float phaseweight\" [ -1 2 ]",
         "found a negative weight", ""},
        {kHomogeneous + "\"integer nx\" 1", "unknown parameter \"nx\"", ""},
-       {"\"string type\" \"heterogeneous\"", "parameter \"float density\" is missing", "t.pbrt:2:1"},
+       {"\"string type\" \"heterogeneous\"", "parameter \"float density\" or \"string filename\" is missing", "t.pbrt:2:1"},
        {"\"string type\" \"heterogeneous\" \"integer nx\" 2 \"float density\" [ 1 1 1 ]",
         "found 3 values, expected nx*ny*nz = 2*1*1 = 2", ""},
        {"\"string type\" \"heterogeneous\" \"integer nx\" 2 \"float density\" [ 1 -1 ]",

@@ -49,6 +49,29 @@ TEST_F(ConstructNanoVdb, EveryParameterHasItsEffect) {
              make, media);
 }
 
+TEST_F(ConstructNanoVdb, HasBoundsOfEveryKind) {
+  const auto make = [&](const std::string& p) { return with(one_ + p); };
+  expectSame({{"", "\"string bounds\" \"exact\""}}, make, media);
+  expectEffects({{"", "\"integer supervoxels\" 0"},
+                 {"", "\"string bounds\" \"constant\" \"float majorant\" 40"},
+                 {"", "\"string bounds\" \"progressive\""},
+                 {"", "\"string freeflight\" \"decomposition\""}},
+                make, media);
+  EXPECT_NE(make("\"string bounds\" \"progressive\"").made->scene->media()[0]->learnedBounds(), nullptr);
+  // 15 voxels and one around them on either side, from a whole brick on.
+  EXPECT_NE(mediumOf(make("\"integer supervoxels\" [ 3 1 5 ]"))->describe().find("super-voxels 3 x 1 x 5"),
+            std::string::npos)
+      << mediumOf(make("\"integer supervoxels\" [ 3 1 5 ]"))->describe();
+}
+
+TEST_F(ConstructNanoVdb, IsReadByAGridTooWhenTheFileIsOne) {
+  const Attempt grid = attemptWorld("MakeNamedMedium \"m\" \"string type\" \"heterogeneous\" " + one_ +
+                                        "\nMediumInterface \"m\" \"\" Material \"\" Shape \"sphere\"",
+                                    {.folder = folder_.path()});
+  ASSERT_TRUE(grid.isSilent()) << grid.messages();
+  EXPECT_EQ(media(grid), media(with(one_)));
+}
+
 TEST_F(ConstructNanoVdb, StandsWhereItsDirectiveStands) {
   expectEffects(
       {{"", "Translate 0 0 0.2 "}, {"", "Scale 2 1 1 "}},

@@ -249,6 +249,86 @@ TEST_F(Pbrt, WritesStatisticsOfScenesWhoseNameIsNoText) {
   EXPECT_EQ(nlohmann::json::parse(folder_.read("s.json")).at("renders").size(), 1u);
 }
 
+/// Fog of unknown bounds around the camera's rays.
+std::string learningScene(const std::string& more = "") {
+  return "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"string filename\" "
+         "\"fog.exr\"\n"
+         "Sampler \"random\" \"integer pixelsamples\" 64\nIntegrator \"volpath\"\n"
+         "LookAt .5 .5 -2  .5 .5 0  0 1 0 Camera \"perspective\" \"float fov\" 20\nWorldBegin\n"
+         "LightSource \"infinite\"\nMakeNamedMedium \"fog\" \"string type\" \"analytic\" \"string function\" "
+         "\"ramp\" \"integer supervoxels\" 1 \"string bounds\" \"progressive\" \"float epsilon\" 20 " +
+         more +
+         "\nMaterial \"none\" MediumInterface \"fog\" \"\"\nTranslate .5 .5 .5\nShape \"sphere\" \"float "
+         "radius\" 1.5\n"
+         "WorldEnd\n";
+}
+
+TEST_F(Pbrt, KeepsLearnedBoundsForTheNextRender) {
+  folder_.write("a.pbrt", learningScene());
+  const auto violations = [&] {
+    const auto passes =
+        nlohmann::json::parse(folder_.read("s.json"))["renders"][0]["learnedBounds"][0]["passes"];
+    EXPECT_EQ(passes.size(), 64u);
+    std::uint64_t sum = 0;
+    for (const auto& pass : passes) sum += pass["violations"].get<std::uint64_t>();
+    return sum;
+  };
+  const std::string options = "--quiet --bounds-cache b.bounds --stats s.json a.pbrt";
+  const ProcessResult first = pbrt(options);
+  ASSERT_EQ(first.status, 0) << first.output;
+  EXPECT_EQ(first.output, "");
+  EXPECT_GT(violations(), 0u);
+  ASSERT_EQ(pbrt(options).status, 0);
+  EXPECT_EQ(violations(), 0u);
+  EXPECT_EQ(folder_.fileCount(), 4u) << "no temporary file may stay";
+
+  folder_.write("a.pbrt", learningScene("\"float boundslack\" 0.5"));
+  const ProcessResult other = pbrt("--bounds-cache b.bounds a.pbrt");
+  EXPECT_EQ(other.status, 0);
+  EXPECT_NE(other.output.find("warning: medium \"fog\" starts with unknown bounds: the cache has 1 x 1 x 1"),
+            std::string::npos)
+      << other.output;
+}
+
+TEST_F(Pbrt, RefusesABrokenBoundsCacheAndWarnsOfAUselessOne) {
+  folder_.write("a.pbrt", learningScene());
+  folder_.write("b.bounds", "something else");
+  const ProcessResult broken = pbrt("--bounds-cache b.bounds a.pbrt");
+  EXPECT_EQ(broken.status, 1);
+  EXPECT_NE(broken.output.find("b.bounds: error: bounds cache: this is no such file"), std::string::npos)
+      << broken.output;
+  EXPECT_FALSE(folder_.has("fog.exr"));
+  EXPECT_EQ(pbrt("--bounds-cache nowhere/b.bounds a.pbrt").status, 1);
+  folder_.write("plain.pbrt", kScene);
+  const ProcessResult plain = pbrt("--bounds-cache c.bounds plain.pbrt");
+  EXPECT_EQ(plain.status, 0);
+  EXPECT_NE(plain.output.find("no medium has progressive bounds"), std::string::npos) << plain.output;
+}
+
+TEST_F(Pbrt, TellsTheRayOfAViolatedBoundAndStrictMinds) {
+  std::string scene = learningScene("\"float majorant\" 0.5");
+  scene.replace(scene.find("progressive"), 11, "constant");
+  scene.replace(scene.find("\"float epsilon\" 20"), 18, "");
+  folder_.write("a.pbrt", scene);
+  const ProcessResult r = pbrt("--strict a.pbrt");
+  EXPECT_EQ(r.status, 2);
+  EXPECT_NE(r.output.find("density lookups exceeded their bound"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("seed 0: medium \"fog\" has density "), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find(" of the ray from "), std::string::npos) << r.output;
+}
+
+TEST_F(Pbrt, WarnsOfTexturesThatAreNoDensity) {
+  std::string scene = learningScene();
+  scene.replace(scene.find("\"analytic\" \"string function\" \"ramp\""), 35,
+                "\"texture\" \"texture density\" \"bad\"");
+  scene.insert(scene.find("MakeNamedMedium"), "Texture \"bad\" \"float\" \"constant\" \"float value\" -1 ");
+  folder_.write("a.pbrt", scene);
+  const ProcessResult r = pbrt("a.pbrt");
+  EXPECT_EQ(r.status, 0) << r.output;
+  EXPECT_NE(r.output.find("warning: medium \"fog\": texture \"bad\" has negative values"), std::string::npos)
+      << r.output;
+}
+
 TEST_F(Pbrt, StopsAtTheTimeLimitWithAValidImage) {
   folder_.write("endless.pbrt", kEndless);
   const auto start = std::chrono::steady_clock::now();
