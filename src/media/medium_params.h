@@ -15,9 +15,9 @@ struct MediumParams {
   std::string name;
   Rgb sigmaA{.0011f, .0024f, .014f};  ///< absorption (at density 1), 1/world length, >= 0
   Rgb sigmaS{2.55f, 3.21f, 3.77f};    ///< scattering (at density 1), 1/world length, >= 0
-  Rgb le{0.0f};  ///< emitted radiance per unit absorption: sigma_a Le is gained per length
   std::vector<PhaseLobe> phase = {PhaseLobe{}};
   OverlapRule overlap;
+  Rgb le{0.0f};  ///< emitted radiance per unit absorption: sigma_a Le is gained per length
 };
 
 }  // namespace pbrtmedia
