@@ -55,7 +55,7 @@ TEST_F(ConstructNanoVdb, HasBoundsOfEveryKind) {
   expectEffects({{"", "\"integer supervoxels\" 0"},
                  {"", "\"string bounds\" \"constant\" \"float majorant\" 40"},
                  {"", "\"string bounds\" \"progressive\""},
-                 {"", "\"string freeflight\" \"decomposition\""}},
+                 {"", "\"string freeflight\" \"regular\""}},
                 make, media);
   EXPECT_NE(make("\"string bounds\" \"progressive\"").made->scene->media()[0]->learnedBounds(), nullptr);
   // 15 voxels and one around them on either side, from a whole brick on.
