@@ -335,7 +335,8 @@ void PathTracer::lightSurface(const Bsdf& bsdf) {
   const LightSample& s = light->sample;
   const Rgb f = bsdf.f(si.wo, s.wi, BsdfFlags::AllButSpecular) * absDot(s.wi, bsdf.shadingNormal());
   if (f.isBlack()) return;
-  const float weight = lightWeight(*light, si.p, bsdf.pdf(si.wo, s.wi));
+  const bool isDelta = setup_.lights[light->index]->isDelta();
+  const float weight = isDelta ? 1 : lightWeight(*light, si.p, bsdf.pdf(si.wo, s.wi));
   MediumState state = state_;
   if (setup_.media) {
     setup_.media->leaveSurface(state, surface_.hit, si, s.wi, counters_, context_.mismatches);
