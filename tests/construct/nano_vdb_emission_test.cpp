@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Media of type "nanovdb" that emit by a second grid.
+#include <gtest/gtest.h>
+
+#include "construct/attempt.h"
+#include "fields/nano_vdb_samples.h"
+#include "spectrum/spectrum.h"
+#include "support/temporary_folder.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+class ConstructNanoVdbEmission : public testing::Test {
+ protected:
+  ConstructNanoVdbEmission() {
+    NanoVdbSample smoke{
+        .min = {-7, -7, -7}, .max = {7, 7, 7}, .worldFromIndex = Transform::scale(.1, .1, .1)};
+    smoke.name = "smoke";
+    smoke.valueAt = [](Ijk) { return 2.0; };
+    // Of another extent and other voxels: half as large, above z = 0 only.
+    NanoVdbSample fire{
+        .min = {-20, -20, 2}, .max = {20, 20, 10}, .worldFromIndex = Transform::scale(.05, .05, .05)};
+    fire.name = "fire";
+    fire.valueAt = [](Ijk) { return 0.5; };
+    writeNanoVdb(folder_.path() / "two.nvdb", {smoke, fire});
+  }
+  Attempt with(const std::string& parameters) const {
+    return attemptWorld(
+        "MakeNamedMedium \"m\" \"string type\" \"nanovdb\" \"string filename\" \"two.nvdb\" \"string grid\" "
+        "\"smoke\" \"rgb sigma_a\" [ 1 2 3 ] " +
+            parameters + "\nMediumInterface \"m\" \"\" Material \"\" Shape \"sphere\"",
+        {.folder = folder_.path()});
+  }
+  static Rgb emissionAt(const Attempt& a, Point3f p) {
+    RenderCounters counters;
+    return a.made->scene->media()[0]->at(p, counters).emission;
+  }
+  static void expectNear(Rgb found, Rgb expected) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 2e-3f * expected.max());
+  }
+
+  TemporaryFolder folder_;
+  const Point3f inFire_{0.1f, -0.2f, 0.3f}, below_{0.1f, -0.2f, -0.3f};
+};
+
+TEST_F(ConstructNanoVdbEmission, TemperaturesOfAnotherGridOfTheFile) {
+  const Attempt a = with(
+      "\"string temperaturegrid\" \"fire\" \"float temperaturescale\" 7500 "
+      "\"float temperatureoffset\" .1 \"float Lescale\" 3");
+  ASSERT_TRUE(a.isSilent()) << a.messages();
+  expectNear(emissionAt(a, inFire_), Rgb(1, 2, 3) * 2.0f * blackbodyToRgb(3000, 3));
+  EXPECT_EQ(emissionAt(a, below_), Rgb());
+  EXPECT_EQ(a.made->scene->lightsWithMedia().size(), 2u);
+}
+
+TEST_F(ConstructNanoVdbEmission, FactorsOfAnotherGridOfTheFile) {
+  const Attempt a = with("\"string Legrid\" \"fire\" \"rgb Le\" [ 1 2 3 ] \"float Lescale\" 3");
+  ASSERT_TRUE(a.isSilent()) << a.messages();
+  expectNear(emissionAt(a, inFire_), Rgb(1, 4, 9) * (2 * 0.5f * 3));
+  EXPECT_EQ(emissionAt(a, below_), Rgb());
+}
+
+/// The places that distances and light samples look at must cover all that emits.
+TEST_F(ConstructNanoVdbEmission, DistancesFindAllOfIt) {
+  const Attempt a = with("\"string Legrid\" \"fire\" \"rgb Le\" [ 1 1 1 ]");
+  ASSERT_TRUE(a.made) << a.messages();
+  const Medium& medium = *a.made->scene->media()[0];
+  const Segment up{{0.1f, -0.2f, -2}, {0, 0, 1}, 0, 4};
+  const auto volume = medium.emissionVolume({});
+  ASSERT_NE(volume, nullptr);
+  std::size_t emitting = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double t = 0.01 * i + 0.005;
+    if (emissionAt(a, up.at(t)).isBlack()) continue;
+    ++emitting;
+    EXPECT_GT(medium.emissionDistancePdf(up, t), 0) << t;
+    EXPECT_GT(volume->pdf(up.at(t)), 0) << t;
+  }
+  EXPECT_GT(emitting, 20u);
+}
+
+TEST_F(ConstructNanoVdbEmission, WrongNamesAreToldWhereTheyStand) {
+  const Attempt missing = with("\"string temperaturegrid\" \"fyre\"");
+  EXPECT_TRUE(missing.failsWith("fyre")) << missing.messages();
+  EXPECT_TRUE(
+      with("\"string temperaturegrid\" \"fire\" \"string Legrid\" \"fire\"").failsWith("one of them"));
+  EXPECT_TRUE(with("\"string temperaturegrid\" \"fire\" \"rgb Le\" [ 1 1 1 ]").failsWith("one of them"));
+}
+
+}  // namespace
+}  // namespace pbrtmedia::test
