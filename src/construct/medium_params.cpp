@@ -2,6 +2,7 @@
 #include "construct/medium_params.h"
 
 #include <array>
+#include <cmath>
 
 #include "construct/emission.h"
 #include "construct/freeflight.h"
@@ -79,6 +80,10 @@ void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, Den
   p.pattern =
       static_cast<PatternKind>(in.findChoice("pattern", kPatternNames, static_cast<std::size_t>(p.pattern)));
   p.bounds = readBounds(in, p.bounds.source);
+  if (const float sigmaT = (p.sigmaA + p.sigmaS).max();
+      sigmaT > 0 && !std::isfinite(p.bounds.majorant / sigmaT)) {
+    in.error(ParamKind::Float, "majorant", "divided by the largest sigma_t it is no finite density");
+  }
   checkPieces(in, p, kind == DensityKind::InPieces);
 }
 

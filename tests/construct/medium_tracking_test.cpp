@@ -158,6 +158,8 @@ TEST(ConstructBounds, SaysWhatIsWrong) {
   expectMistakes({{kGrid + "\"string bounds\" \"progresive\"", "did you mean \"progressive\"?", ""},
                   {kGrid + constant, "\"constant\" needs a \"float majorant\"", ""},
                   {kGrid + constant + "\"float majorant\" 0", "\"majorant\": found 0, expected > 0", ""},
+                  {kGrid + constant + "\"float scale\" 1e-30 \"float majorant\" 1e30",
+                   "\"majorant\": divided by the largest sigma_t it is no finite density", ""},
                   {kGrid + "\"float majorant\" 1", "\"majorant\": needs \"string bounds\" \"constant\"", ""},
                   {kGrid + constant + "\"float majorant\" 1 \"float epsilon\" 1",
                    "\"epsilon\": needs \"string bounds\" \"progressive\"", ""},
