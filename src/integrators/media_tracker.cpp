@@ -2,6 +2,7 @@
 #include "integrators/media_tracker.h"
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "integrators/boundary_closure.h"
@@ -206,8 +207,10 @@ FlightControl controlOf(const MediumState& state, const Ray& ray, double tMin, d
 double MediaTracker::meanExtinction(const MediumState& state, const Ray& ray, double tMin, double tMax) {
   const FlightControl control = controlOf(state, ray, tMin, tMax);
   const double length = tMax - tMin;
-  if (!(length < static_cast<double>(kInfinity))) return static_cast<double>(control.rate.average());
-  return length > 0 ? static_cast<double>(control.depth.average()) / length : 0;
+  const auto depth = static_cast<double>(control.depth.average());
+  if (length < static_cast<double>(kInfinity)) return length > 0 ? depth / length : 0;
+  const auto rate = static_cast<double>(control.rate.average());
+  return rate > 0 || !(depth > 0) ? rate : std::numeric_limits<double>::min();
 }
 
 double MediaTracker::flightDensity(const MediumState& state, const Ray& ray, double tMin, double t) {

@@ -79,7 +79,7 @@ class MediaTracker {
   /// channels of what the media's controls say together.
   static double flightDensity(const MediumState& state, const Ray& ray, double tMin, double t);
   /// Mean over the stretch and the channels of the extinction that the media's controls say together; on an
-  /// endless one that at its end.
+  /// endless one that at its end. 0 only where nothing can collide.
   static double meanExtinction(const MediumState& state, const Ray& ray, double tMin, double tMax);
   /// Whether some active medium emits.
   static bool emits(const MediumState& state);

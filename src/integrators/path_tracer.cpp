@@ -110,10 +110,10 @@ bool PathTracer::passMedium(double tMin, double tMax, const SceneHit* hit, const
   }
   std::optional<double> extinction;
   if (setup_.positionLights) {
-    if (setup_.params.mediumLightSampling == MediumLightSampling::Auto) {
-      extinction = MediaTracker::meanExtinction(state_, ray_, tMin, tMax);
-    }
-    lightStretch({ray_, tMin, tMax, extinction}, hit, start);
+    // Media of nothing take no sample: their boundaries leave the image as it is, bit for bit.
+    const double mean = MediaTracker::meanExtinction(state_, ray_, tMin, tMax);
+    if (setup_.params.mediumLightSampling == MediumLightSampling::Auto) extinction = mean;
+    if (mean > 0) lightStretch({ray_, tMin, tMax, extinction}, hit, start);
   }
   const MediumFlight flight =
       MediaTracker::sampleFreeFlight(state_, ray_, tMin, tMax, context_.rng, counters_);
