@@ -198,6 +198,7 @@ float PathTracer::mediumEmissionWeight(const PlacedMedium& medium, double t) con
   const MediumLight& source = *setup_.scene.mediumLight(*light);
   const double lightPdf =
       double{setup_.selector->probability(ray_.o, *light)} * source.pdfAt(ray_.o, ray_.d, t);
+  if (!(lightPdf > 0)) return 1;  // outside of what light samples look at
   return powerHeuristic(static_cast<float>(directionPdf_ * source.distancePdf(ray_.o, ray_.d, t)),
                         static_cast<float>(lightPdf));
 }
