@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "construct/construct.h"
 
+#include <algorithm>
 #include <array>
 
 #include "construct/cameras.h"
@@ -134,6 +135,11 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
     mediaEmit = made.scene->hasEmissiveMedia() || MediaTracker::emits(cameraMedium.state());
     made.integrator = integrator->make(*made.scene, std::move(cameraMedium));
     made.pixelBounds = integrator->pixelBounds;
+    const std::vector<Medium*>& media = made.scene->media();
+    if (integrator->rendersMedia &&
+        std::any_of(media.begin(), media.end(), [](const Medium* m) { return m->mayBeNegative(); })) {
+      made.film->keepNegatives();
+    }
   } catch (const SceneError& e) {
     diagnostics.add(e);
   }

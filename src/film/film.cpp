@@ -110,8 +110,9 @@ bool Film::admit(Rgb& radiance, RenderCounters& counters) const {
   const float luminance = radiance.luminance();
   // Finite channels whose luminance overflows are as useless as infinite ones.
   if (!radiance.isFinite() || !std::isfinite(luminance)) return drop(DropCause::Infinite);
-  if (luminance < kNegativeLuminance) return drop(DropCause::Negative);
-  if (luminance > settings_.maxSampleLuminance) radiance *= settings_.maxSampleLuminance / luminance;
+  if (luminance < kNegativeLuminance && !keepsNegatives_) return drop(DropCause::Negative);
+  if (const float size = std::abs(luminance); size > settings_.maxSampleLuminance)
+    radiance *= settings_.maxSampleLuminance / size;
   return true;
 }
 
@@ -154,7 +155,8 @@ Image Film::develop() const {
   image.displayWindow = {{0, 0}, settings_.resolution};
   const auto channel = [&](double sum, double weight) {
     constexpr double kMost = std::numeric_limits<float>::max();
-    return static_cast<float>(std::clamp(std::max(0.0, sum / weight) * settings_.scale, -kMost, kMost));
+    const double mean = keepsNegatives_ ? sum / weight : std::max(0.0, sum / weight);
+    return static_cast<float>(std::clamp(mean * settings_.scale, -kMost, kMost));
   };
   std::size_t i = 0;
   for (int y = 0; y < image.height(); ++y) {

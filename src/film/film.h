@@ -64,11 +64,16 @@ class Film {
   Bounds2i sampleBounds() const { return sampleBounds_; }  ///< pixels that need samples: grown by the filter
   /// Whether a sample may reach the film; counts its cause in `counters` and returns false otherwise. A
   /// dropped sample is black but still weighs, as in PBRT-v3. Luminance above maxSampleLuminance is scaled
-  /// down in place.
+  /// down in place, and so is that below minus it.
   bool admit(Rgb& radiance, RenderCounters& counters) const;
+  /// From now on negative luminances are samples like others, and negative pixels stay negative: for scenes
+  /// whose estimators have such samples, and would be biased without them.
+  void keepNegatives() { keepsNegatives_ = true; }
+  bool keepsNegatives() const { return keepsNegatives_; }
   /// Adds a pass over exactly `sampleBounds`; parallel over rows.
   void accumulate(const SamplePass& pass);
-  /// Current image: normalised, negative values at 0, scaled. Data and display windows are set.
+  /// Current image: normalised, negative values at 0 unless they are kept, scaled. Data and display windows
+  /// are set.
   Image develop() const;
 
   /// The sums, row by row over `pixelBounds`, for checkpoints; and back. Throws std::invalid_argument when
@@ -80,6 +85,7 @@ class Film {
   void accumulateRow(const SamplePass& pass, int y);
 
   Settings settings_;
+  bool keepsNegatives_ = false;
   std::unique_ptr<Filter> filter_;
   Bounds2i pixelBounds_, sampleBounds_;
   std::vector<float> filterTable_;                      ///< kTableWidth^2 values over the positive quadrant

@@ -65,6 +65,11 @@ class FieldMedium final : public Medium {
     }
   }
 
+  /// Under proven bounds every sampler's weights are positive.
+  bool mayBeNegative() const override {
+    return !Field::kProvenBounds || traitsOf(estimator_).mayLeaveUnitInterval;
+  }
+
   std::string_view typeName() const override { return typeName_; }
   const PhaseFunction& phase() const override { return *phase_; }
 

@@ -96,6 +96,9 @@ class Medium {
     return nullptr;
   }
 
+  /// Whether transmittances or weights of flights may be negative, as those of some unbiased estimators are.
+  virtual bool mayBeNegative() const { return false; }
+
   /// Where the density can be positive; infinite for a homogeneous medium.
   virtual Bounds3f bounds() const = 0;
   /// Bounds that are learned while rendering: whoever renders publishes them between passes. Null for media

@@ -360,6 +360,26 @@ TEST_F(Admission, CountsEachCauseOfADrop) {
   EXPECT_EQ(dropped(DropCause::Negative), 1u);
 }
 
+TEST_F(Admission, KeepsNegativesWhereEstimatorsHaveThem) {
+  settings_.maxSampleLuminance = 2;
+  Film film(settings_, box());
+  film.keepNegatives();
+  Rgb below(-1), farBelow(-8), notANumber(std::numeric_limits<float>::quiet_NaN()), infinite(-kInfinity);
+  EXPECT_TRUE(film.admit(below, counters_));
+  EXPECT_EQ(below, Rgb(-1));
+  EXPECT_TRUE(film.admit(farBelow, counters_));
+  EXPECT_FLOAT_EQ(farBelow.luminance(), -2);
+  EXPECT_FALSE(film.admit(notANumber, counters_));
+  EXPECT_FALSE(film.admit(infinite, counters_));
+  EXPECT_EQ(dropped(DropCause::Negative), 0u);
+
+  SamplePass pass(film.sampleBounds(), 2);
+  pass.at({0, 0}, 0) = {{.5f, .5f}, Rgb(-3), true};
+  pass.at({0, 0}, 1) = {{.5f, .5f}, Rgb(1), true};
+  film.accumulate(pass);
+  EXPECT_EQ(film.develop().rgb(0, 0), Rgb(-1)) << "their mean, not the mean of what is positive";
+}
+
 TEST_F(Admission, LetsRoundingLeftoversAndCancellingChannelsPass) {
   EXPECT_TRUE(admits(Rgb(-0.9e-5f)));
   EXPECT_FALSE(admits(Rgb(-1.1e-5f)));
