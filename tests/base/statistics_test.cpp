@@ -28,7 +28,15 @@ TEST(RenderCounters, AddsEveryCount) {
     expected += 2;
   }
   // A new counter must be added here and in `add`.
-  EXPECT_EQ(sizeof(RenderCounters), 15 * sizeof(std::uint64_t));
+  EXPECT_EQ(sizeof(RenderCounters), 15 * sizeof(std::uint64_t) + sizeof(std::optional<BoundViolation>));
+}
+
+TEST(RenderCounters, LeavesExamplesOfViolationsToWhoeverTakesThem) {
+  RenderCounters a, b;
+  b.violation = BoundViolation{"smoke", {}, {}, 2, 3, 1};
+  a.add(b);
+  EXPECT_FALSE(a.violation);
+  EXPECT_EQ(b.violation->medium, "smoke");
 }
 
 TEST(RenderCounters, KeepsTheWorstBoundRatio) {
