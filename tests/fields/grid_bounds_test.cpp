@@ -70,8 +70,9 @@ TEST_P(SuperVoxelMean, IsTheIntegralOverThePartInsideTheBox) {
   params.layout = layout;
   const GridField field(params, Transform());
   const SuperVoxels bounds = field.superVoxels(power);
+  const std::int64_t edge = std::int64_t{1} << power;
   eachCell(bounds, [&](Vec3<std::int64_t> cell, const SuperVoxel& bound) {
-    const double truth = meanByQuadrature(field, cell, std::int64_t{1} << power);
+    const double truth = meanByQuadrature(field, cell, edge);
     EXPECT_NEAR(static_cast<double>(bound.mean), truth, 4e-7 * static_cast<double>(bound.upper))
         << cell.x << ' ' << cell.y << ' ' << cell.z;
     EXPECT_EQ(bound.mean > 0, bound.upper > 0);
