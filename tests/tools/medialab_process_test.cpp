@@ -105,6 +105,26 @@ TEST(Medialab, ThePageOfEstimatorsKnowsAllOfThem) {
   }
 }
 
+TEST(Medialab, ThePageOfEstimatorsIsWrittenByItsCommand) {
+  const TemporaryFolder one, two;
+  const std::string command = "docs --trials 50 --no-seconds --quiet -o page.md --threads ";
+  EXPECT_EQ(lab(command + "1", one.path().string()).status, 0);
+  EXPECT_EQ(lab(command + "2", two.path().string()).status, 0);
+  EXPECT_TRUE(one.read("page.md") == two.read("page.md")) << "threads do not matter";
+  // Every sentence of the page in the repository comes from the command; measured numbers differ.
+  EXPECT_EQ(lab("docs --trials 50 --quiet -o estimators.md", one.path().string()).status, 0);
+  const std::string page = one.read("estimators.md");
+  std::ifstream kept(PBRT_MEDIA_SOURCE_DIR "/docs/estimators.md");
+  std::size_t sentences = 0;
+  for (std::string line; std::getline(kept, line);) {
+    if (line.empty() || line.find_first_of("0123456789") != std::string::npos) continue;
+    if (line.starts_with("This page is generated")) continue;  // by how many trials
+    ++sentences;
+    EXPECT_TRUE(page.find(line + '\n') != std::string::npos) << line << ": run medialab docs";
+  }
+  EXPECT_GT(sentences, 100u);
+}
+
 TEST(Medialab, EstimateHasTheColumnsPromised) {
   const ProcessResult csv =
       lab("estimate --estimator ratio --extinction cosine --trials 10 --quiet --outfile - --no-such");
