@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "main/warnings.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace pbrtmedia {
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(DescribeFaults, SaysNothingOfAFaultlessRender) { EXPECT_EQ(describeFaults({}, {}), ""); }
+
+TEST(DescribeFaults, TellsDroppedSamplesByCauseWithAnExample) {
+  RenderResult result;
+  result.samplesTaken = 100;
+  result.counters.dropped = {2, 0, 1};
+  result.dropped = {{{3, 4}, 5, DropCause::NotANumber}};
+  Options options;
+  options.seed = 7;
+  options.quiet = true;  // faults are told all the same
+  const std::string text = describeFaults(result, options);
+  EXPECT_TRUE(has(text, "3 of 100 samples were dropped: 2 not a number 1 of negative luminance.")) << text;
+  EXPECT_TRUE(has(text, "pixel 3 4, sample 5, seed 7: not a number")) << text;
+}
+
+TEST(DescribeFaults, TellsViolatedBoundsWithTheirRay) {
+  RenderResult result;
+  result.counters.boundViolations = 4;
+  result.counters.worstBoundRatio = 1.5;
+  ViolationRecord record{{1, 2}, 3, BoundViolation{{}, {0, 0, -1}, {0, 0, 1}, 2.5, 3, 2}, "smoke"};
+  result.violations = {record};
+  Options options;
+  options.quiet = true;
+  const std::string text = describeFaults(result, options);
+  EXPECT_TRUE(has(text, "4 density lookups exceeded their bound, the worst by a factor of 1.5.")) << text;
+  EXPECT_TRUE(
+      has(text, "pixel 1 2, sample 3, seed 0: medium \"smoke\" has density 3 above its bound 2 at t = 2.5"))
+      << text;
+}
+
+TEST(DescribeFaults, LeavesOutRemarksWhenQuiet) {
+  RenderResult result;
+  result.counters.cappedEstimates = 6;
+  result.counters.mediumMismatches = 8;
+  result.mismatches = {{{1, 2}, 3, {0, 0, 0}, "fog", "smoke"}};
+  const std::string text = describeFaults(result, {});
+  EXPECT_TRUE(has(text, "6 transmittance estimates were cut short by maxlookups")) << text;
+  EXPECT_TRUE(has(text, "8 boundary crossings name another medium")) << text;
+  EXPECT_TRUE(has(text, "pixel 1 2, sample 3: a boundary at")) << text;
+  Options quiet;
+  quiet.quiet = true;
+  EXPECT_EQ(describeFaults(result, quiet), "");
+}
+
+}  // namespace
+}  // namespace pbrtmedia
