@@ -80,30 +80,6 @@ std::optional<bool> ParamReader::optionalBool(std::string_view name) {
 std::optional<std::string> ParamReader::optionalString(std::string_view name) {
   return copied(scalar<std::string>(ParamKind::String, name));
 }
-std::optional<Point2f> ParamReader::optionalPoint2(std::string_view name) {
-  return copied(scalar<Point2f>(ParamKind::Point2, name));
-}
-std::optional<Vector2f> ParamReader::optionalVector2(std::string_view name) {
-  return copied(scalar<Vector2f>(ParamKind::Vector2, name));
-}
-std::optional<Point3f> ParamReader::optionalPoint3(std::string_view name) {
-  return copied(scalar<Point3f>(ParamKind::Point3, name));
-}
-std::optional<Vector3f> ParamReader::optionalVector3(std::string_view name) {
-  return copied(scalar<Vector3f>(ParamKind::Vector3, name));
-}
-std::optional<Normal3f> ParamReader::optionalNormal(std::string_view name) {
-  return copied(scalar<Normal3f>(ParamKind::Normal, name));
-}
-std::optional<Rgb> ParamReader::optionalSpectrum(std::string_view name, Range range) {
-  const Rgb* const c = scalar<Rgb>(ParamKind::Spectrum, name);
-  if (!c) return std::nullopt;
-  if (range.contains(c->r) && range.contains(c->g) && range.contains(c->b)) return *c;
-  error(ParamKind::Spectrum, name,
-        "found RGB (" + pbrtmedia::number(c->r) + ", " + pbrtmedia::number(c->g) + ", " +
-            pbrtmedia::number(c->b) + "), expected each " + range.toString());
-  return std::nullopt;
-}
 std::optional<std::string> ParamReader::findTextureName(std::string_view name) {
   return copied(scalar<std::string>(ParamKind::Texture, name));
 }
@@ -120,23 +96,20 @@ bool ParamReader::findBool(std::string_view name, bool fallback) {
 std::string ParamReader::findString(std::string_view name, std::string fallback) {
   return optionalString(name).value_or(std::move(fallback));
 }
-Point2f ParamReader::findPoint2(std::string_view name, Point2f fallback) {
-  return optionalPoint2(name).value_or(fallback);
-}
-Vector2f ParamReader::findVector2(std::string_view name, Vector2f fallback) {
-  return optionalVector2(name).value_or(fallback);
-}
 Point3f ParamReader::findPoint3(std::string_view name, Point3f fallback) {
-  return optionalPoint3(name).value_or(fallback);
+  return copied(scalar<Point3f>(ParamKind::Point3, name)).value_or(fallback);
 }
 Vector3f ParamReader::findVector3(std::string_view name, Vector3f fallback) {
-  return optionalVector3(name).value_or(fallback);
-}
-Normal3f ParamReader::findNormal(std::string_view name, Normal3f fallback) {
-  return optionalNormal(name).value_or(fallback);
+  return copied(scalar<Vector3f>(ParamKind::Vector3, name)).value_or(fallback);
 }
 Rgb ParamReader::findSpectrum(std::string_view name, Rgb fallback, Range range) {
-  return optionalSpectrum(name, range).value_or(fallback);
+  const Rgb* const c = scalar<Rgb>(ParamKind::Spectrum, name);
+  if (!c) return fallback;
+  if (range.contains(c->r) && range.contains(c->g) && range.contains(c->b)) return *c;
+  error(ParamKind::Spectrum, name,
+        "found RGB (" + pbrtmedia::number(c->r) + ", " + pbrtmedia::number(c->g) + ", " +
+            pbrtmedia::number(c->b) + "), expected each " + range.toString());
+  return fallback;
 }
 
 template <class T>
@@ -154,21 +127,6 @@ std::vector<T> ParamReader::take(ParamKind kind, std::string_view name) {
 std::span<const int> ParamReader::ints(std::string_view name) { return view<int>(ParamKind::Integer, name); }
 std::span<const float> ParamReader::floats(std::string_view name) {
   return view<float>(ParamKind::Float, name);
-}
-std::span<const Point2f> ParamReader::point2s(std::string_view name) {
-  return view<Point2f>(ParamKind::Point2, name);
-}
-std::span<const Point3f> ParamReader::point3s(std::string_view name) {
-  return view<Point3f>(ParamKind::Point3, name);
-}
-std::span<const Vector3f> ParamReader::vector3s(std::string_view name) {
-  return view<Vector3f>(ParamKind::Vector3, name);
-}
-std::span<const Normal3f> ParamReader::normals(std::string_view name) {
-  return view<Normal3f>(ParamKind::Normal, name);
-}
-std::span<const Rgb> ParamReader::spectra(std::string_view name) {
-  return view<Rgb>(ParamKind::Spectrum, name);
 }
 std::span<const std::string> ParamReader::strings(std::string_view name) {
   return view<std::string>(ParamKind::String, name);

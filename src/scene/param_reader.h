@@ -22,7 +22,6 @@ struct Range {
 
   static constexpr Range positive() { return above(0); }
   static constexpr Range nonNegative() { return atLeast(0); }
-  static constexpr Range unit() { return closed(0, 1); }
   static constexpr Range above(double lo) {
     return {lo, std::numeric_limits<double>::infinity(), true, false};
   }
@@ -58,11 +57,8 @@ class ParamReader {
   int findInt(std::string_view name, int fallback, Range range = {});
   bool findBool(std::string_view name, bool fallback);
   std::string findString(std::string_view name, std::string fallback);
-  Point2f findPoint2(std::string_view name, Point2f fallback);
-  Vector2f findVector2(std::string_view name, Vector2f fallback);
   Point3f findPoint3(std::string_view name, Point3f fallback);
   Vector3f findVector3(std::string_view name, Vector3f fallback);
-  Normal3f findNormal(std::string_view name, Normal3f fallback);
   /// `range` holds for each channel.
   Rgb findSpectrum(std::string_view name, Rgb fallback, Range range = {});
 
@@ -71,23 +67,12 @@ class ParamReader {
   std::optional<int> optionalInt(std::string_view name, Range range = {});
   std::optional<bool> optionalBool(std::string_view name);
   std::optional<std::string> optionalString(std::string_view name);
-  std::optional<Point2f> optionalPoint2(std::string_view name);
-  std::optional<Vector2f> optionalVector2(std::string_view name);
-  std::optional<Point3f> optionalPoint3(std::string_view name);
-  std::optional<Vector3f> optionalVector3(std::string_view name);
-  std::optional<Normal3f> optionalNormal(std::string_view name);
-  std::optional<Rgb> optionalSpectrum(std::string_view name, Range range = {});
   /// The name in a `"texture name" "…"` entry.
   std::optional<std::string> findTextureName(std::string_view name);
 
   // Arrays: empty when absent. The spans live as long as the entity and until the array is taken.
   std::span<const int> ints(std::string_view name);
   std::span<const float> floats(std::string_view name);
-  std::span<const Point2f> point2s(std::string_view name);
-  std::span<const Point3f> point3s(std::string_view name);
-  std::span<const Vector3f> vector3s(std::string_view name);
-  std::span<const Normal3f> normals(std::string_view name);
-  std::span<const Rgb> spectra(std::string_view name);
   std::span<const std::string> strings(std::string_view name);
   // The same moved out without a copy; the entry stays, empty.
   std::vector<int> takeInts(std::string_view name);
