@@ -11,7 +11,11 @@
 
 #include "freeflight/any_sampler.h"
 #include "support/render_scene.h"
+#include "support/temporary_folder.h"
 #include "transmittance/any_estimator.h"
+#ifdef PBRT_MEDIA_HAS_NANOVDB
+#include "fields/nano_vdb_samples.h"
+#endif
 
 namespace pbrtmedia::test {
 namespace {
@@ -58,8 +62,32 @@ std::vector<MediumClass> mediumClasses() {
        R"("string type" "texture" "texture density" "blocks" "string bounds" "constant" "float majorant" 3 )" +
            kBox,
        false},
+#ifdef PBRT_MEDIA_HAS_NANOVDB
+      {"nanovdb", R"("string type" "nanovdb" "string filename" "bricks.nvdb" )", true},
+#endif
   };
 }
+
+#ifdef PBRT_MEDIA_HAS_NANOVDB
+/// 4 x 4 x 4 bricks of 8 voxels each way in [-1, 1]^3. By turns a brick is empty (nothing is stored), of one
+/// value (a tile), or of values that differ from voxel to voxel.
+void writeBricks(const std::filesystem::path& file) {
+  const auto valueAt = [](Ijk at) {
+    const auto brick = [&](std::size_t axis) { return (at[axis] + 16) / 8; };
+    const int number = brick(0) + 4 * brick(1) + 16 * brick(2);
+    if (number % 4 == 0) return 0.0;
+    if (number % 4 == 1) return 0.5 + number % 3;
+    const auto voxel = static_cast<std::uint64_t>((at[0] + 16) + 32 * (at[1] + 16) + 1024 * (at[2] + 16));
+    return 4 * Rng(voxel).uniformDouble();
+  };
+  const double h = 1.0 / 16;
+  writeNanoVdb(file,
+               {{.min = {-16, -16, -16},
+                 .max = {15, 15, 15},
+                 .valueAt = valueAt,
+                 .worldFromIndex = Transform::translate({h / 2, h / 2, h / 2}) * Transform::scale(h, h, h)}});
+}
+#endif
 
 /// Environment and a point light around the medium, seen by a camera that looks past its corner; three
 /// bounces.
@@ -88,9 +116,10 @@ Texture "blocks" "float" "checkerboard" "integer dimension" 3 "float tex1" 0.2 "
 
 using Pixels = std::vector<RunningStats>;
 
-/// Green radiance of `samples` samples of every pixel.
-Pixels takeSamples(const std::string& text, std::int64_t samples, std::uint64_t seed) {
-  const Construction scene = constructText(text);
+/// Green radiance of `samples` samples of every pixel. `folder`: where the scene's files are.
+Pixels takeSamples(const std::string& text, const TemporaryFolder& folder, std::int64_t samples,
+                   std::uint64_t seed) {
+  const Construction scene = constructText(text, {}, folder.path());
   const std::unique_ptr<Sampler> sampler = scene.sampler->clone();
   RenderCounters counters;
   Pixels pixels;
@@ -115,7 +144,18 @@ ZTest difference(const RunningStats& a, const RunningStats& truth) {
           kSeed,    a.count()};
 }
 
-class Agreement : public testing::TestWithParam<MediumClass> {};
+class Agreement : public testing::TestWithParam<MediumClass> {
+ protected:
+  void SetUp() override {
+#ifdef PBRT_MEDIA_HAS_NANOVDB
+    if (GetParam().name == "nanovdb") writeBricks(folder_.path() / "bricks.nvdb");
+#endif
+  }
+  Pixels takeSamples(const std::string& text, std::int64_t samples, std::uint64_t seed) const {
+    return test::takeSamples(text, folder_, samples, seed);
+  }
+  TemporaryFolder folder_;
+};
 
 TEST_P(Agreement, OfEveryEstimatorWithEverySampler) {
   const MediumClass& mediumClass = GetParam();
