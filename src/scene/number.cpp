@@ -2,9 +2,11 @@
 #include "scene/number.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace pbrtmedia {
 namespace {
@@ -29,6 +31,21 @@ bool isLarge(std::string_view word) {
   return power > 0;
 }
 
+/// The number that the eight characters at `p` make; false when one is no digit.
+bool readEightDigits(const char* p, std::uint64_t& number) {
+  constexpr std::uint64_t kEach = 0x0101010101010101;
+  std::uint64_t n;
+  std::memcpy(&n, p, sizeof n);
+  if constexpr (std::endian::native == std::endian::big) n = __builtin_bswap64(n);
+  n ^= kEach * '0';  // digits become 0 to 9
+  if (((((n & (kEach * 0x7f)) + kEach * (0x80 - 10)) | n) & (kEach * 0x80)) != 0) return false;
+  // The first character is in the lowest byte. Neighbours join to numbers below 100, then 10^4, then 10^8.
+  n = (n * 10 + (n >> 8)) & 0x00ff00ff00ff00ff;
+  n = (n * 100 + (n >> 16)) & 0x0000ffff0000ffff;
+  number = (n * 10000 + (n >> 32)) & 0xffffffff;
+  return true;
+}
+
 template <class T>
 NumberStatus parse(std::string_view word, T& value) {
   const char* p = word.data();
@@ -47,6 +64,28 @@ NumberStatus parse(std::string_view word, T& value) {
 }
 
 }  // namespace
+
+void takeFirstDigits(std::string_view digits, Decimal& d) {
+  constexpr std::uint64_t kRoomForEight = 100'000'000'000, kRoomForOne = 1'000'000'000'000'000'000;
+  const char* p = digits.data();
+  const char* const end = p + digits.size();
+  while (p != end && (*p == '0' || *p == '.')) ++p;
+  std::uint64_t m = 0, eight;
+  while (p != end && m < kRoomForOne) {
+    if (*p == '.') {
+      ++p;
+    } else if (end - p >= 8 && m < kRoomForEight && readEightDigits(p, eight)) {
+      m = 100'000'000 * m + eight;
+      p += 8;
+    } else {
+      m = 10 * m + static_cast<unsigned>(*p++ - '0');
+    }
+  }
+  const std::string_view left(p, static_cast<std::size_t>(end - p));
+  d.mantissa = m;
+  d.exact = left.empty();
+  d.exponent += static_cast<std::int64_t>(left.size()) - std::count(left.begin(), left.end(), '.');
+}
 
 NumberStatus parseFloat(std::string_view word, float& value) { return parse(word, value); }
 NumberStatus parseDouble(std::string_view word, double& value) { return parse(word, value); }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -68,6 +69,80 @@ TEST(Number, FastPathTakesTheDigitsOfDoublesAndRoundsThemRight) {
     ASSERT_EQ(read, std::strtof(text, nullptr)) << text;
   }
   EXPECT_GT(fast, kCount / 2 - kCount / 100);
+}
+
+float fromChars(const std::string& text) {
+  float value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  EXPECT_TRUE(stop == end && error == std::errc()) << text;
+  return value;
+}
+
+TEST(Number, LongDecimalsTakeTheFastPathAndRoundAsFromChars) {
+  std::mt19937_64 random(13);
+  std::size_t fast = 0;
+  constexpr int kCount = 300000;
+  for (int i = 0; i < kCount; ++i) {
+    std::string text;
+    const auto digits = [&](std::uint64_t count) {
+      for (std::uint64_t k = 0; k < count; ++k) text += static_cast<char>('0' + random() % 10);
+    };
+    // Up to 60 digits around a point anywhere, some with many zeros first, and normal floats after all.
+    const std::uint64_t before = random() % 30, zeros = random() % 3 == 0 ? random() % 25 : 0;
+    digits(before);
+    text += '.';
+    text.append(before == 0 ? zeros : 0, '0');
+    digits(1 + random() % 30);
+    if (random() % 2 == 0) text.append("e").append(std::to_string(static_cast<int>(random() % 20) - 12));
+    if (before == 0) text.insert(text.begin(), '0');
+    bool isFast;
+    const float value = fastFloat(text, isFast);
+    fast += isFast;
+    ASSERT_EQ(value, fromChars(text)) << text;
+  }
+  EXPECT_GT(fast, kCount - kCount / 100);
+}
+
+TEST(Number, DecimalsAtAndBesideHalfWayRoundAsFromChars) {
+  std::mt19937_64 random(17);
+  for (int i = 0; i < 20000; ++i) {
+    // Half-way between two floats, in all its digits; then with the rest of the digits a little more or less.
+    const double half = std::ldexp(static_cast<double>((random() >> 40 | std::uint64_t{1} << 23) * 2 + 1),
+                                   -25 - static_cast<int>(random() % 60) + 30);
+    char text[256];
+    std::snprintf(text, sizeof text, "%.110f", half);
+    std::string exact(text);
+    exact.erase(exact.find_last_not_of('0') + 1);
+    std::string below = exact;
+    if (below.back() == '.') below += '0';
+    for (std::size_t k = below.size(); k-- > 0;) {  // subtracts 1 from the last place
+      if (below[k] == '.') continue;
+      if (below[k]-- != '0') break;
+      below[k] = '9';
+    }
+    const std::string point = exact.back() == '.' ? "0" : "";
+    for (const std::string& t :
+         {exact, exact + point + "0000", exact + point + "00000000001", below, below + "99999999999"}) {
+      bool isFast;
+      ASSERT_EQ(fastFloat(t, isFast), fromChars(t)) << t;
+    }
+    bool isFast;
+    fastFloat(exact, isFast);
+    ASSERT_FALSE(isFast) << exact << ": rounding a rounded tie would be luck";
+  }
+}
+
+TEST(Number, LongDigitRunsKeepTheirPlace) {
+  for (const char* text :
+       {"123456789012345678901234567890", "12345678901234567890.", "1234567890123456789.01",
+        "0.000000000000000000000000000000123456789", "00000000000000000000000000000000000001",
+        "00000000000000000000.00000000000000000000", "100000000000000000000000000000000000000",
+        "999999999999999999999999e-20", "0.00000000000000000000000000000000000001175494351"}) {
+    bool fast;
+    EXPECT_EQ(fastFloat(text, fast), fromChars(text)) << text;
+    EXPECT_TRUE(fast) << text;
+  }
 }
 
 TEST(Number, HalfWayCasesRoundOnce) {
