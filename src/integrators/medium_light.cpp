@@ -21,57 +21,113 @@ std::array<double, 3> refine(Point2f u) {
           static_cast<double>(mix64(hash + 3) >> 11) * 0x1p-53};
 }
 
+/// Volume in the medium's space of a unit of volume in the world.
+double volumeScale(const Transform& mediaFromWorld) {
+  return std::abs(mediaFromWorld.matrix().determinant3());
+}
+
 }  // namespace
 
-MediumLight::MediumLight(const Medium& medium, std::unique_ptr<const EmissionVolume> volume)
-    : medium_(medium), volume_(std::move(volume)) {}
+MediumLight::MediumLight(const PlacedMedium& medium, const EmissionVolume& volume)
+    : medium_(medium), volume_(volume) {}
 
 LightSample MediumLight::sample(Point3f reference, Point2f u) const {
+  return sample(reference, u, -kInfinity);
+}
+
+LightSample MediumLight::sample(Point3f reference, Point2f u, float time) const {
   LightSample s;
-  const EmissionVolume::Sample at = volume_->sample(refine(u));
-  const Vec3d d = Vec3d(at.p) - Vec3d(reference);
+  const EmissionVolume::Sample at = volume_.sample(refine(u));
+  Vec3d p(at.p);
+  double pdf = at.pdf;
+  if (medium_.placement) {
+    const Transform mediaFromWorld = medium_.placement->mediaFromWorld(time);
+    p = mediaFromWorld.inverse().point(p);
+    pdf *= volumeScale(mediaFromWorld);
+  }
+  const Vec3d d = p - Vec3d(reference);
   const double squared = lengthSquared(d);
   if (!(squared > 0)) return s;
   const double r = std::sqrt(squared);
   RenderCounters uncounted;  // this interface counts nothing
   s.wi = Vector3f(d / r);
   s.distance = static_cast<float>(r);
-  s.pdf = static_cast<float>(at.pdf * squared);
-  s.radiance = medium_.at(at.p, uncounted).emission;
+  s.pdf = static_cast<float>(pdf * squared);
+  s.radiance = medium_.medium->at(at.p, uncounted).emission;
   return s;
 }
 
-Rgb MediumLight::power() const { return volume_->total() * (4 * kPi); }
-
-double MediumLight::pdfAt(Point3f reference, Vector3f wi, double t) const {
-  return volume_->pdf(Segment{reference, wi, 0, t}.at(t)) * t * t;
+Rgb MediumLight::power() const {
+  const Rgb total = volume_.total() * (4 * kPi);
+  if (!medium_.placement) return total;
+  return total / static_cast<float>(volumeScale(medium_.placement->mediaFromWorld(-kInfinity)));
 }
 
-double MediumLight::distancePdf(Point3f reference, Vector3f wi, double t) const {
-  const auto span = clipToBox(Bounds3d{Vec3d(volume_->bounds().min), Vec3d(volume_->bounds().max)},
-                              Vec3d(reference), Vec3d(wi), 0.0, static_cast<double>(kInfinity));
+double MediumLight::pdfAt(Point3f reference, Vector3f wi, double t, float time) const {
+  const Segment world{reference, wi, 0, t};
+  if (!medium_.placement) return volume_.pdf(world.at(t)) * t * t;
+  const double scale = volumeScale(medium_.placement->mediaFromWorld(time));
+  return volume_.pdf(medium_.placement->toObject(world, time).at(t)) * scale * t * t;
+}
+
+double MediumLight::distancePdf(Point3f reference, Vector3f wi, double t, float time) const {
+  Segment segment{reference, wi, 0, static_cast<double>(kInfinity)};
+  if (medium_.placement) segment = medium_.placement->toObject(segment, time);
+  const auto span = clipToBox(Bounds3d{Vec3d(volume_.bounds().min), Vec3d(volume_.bounds().max)},
+                              Vec3d(segment.o), Vec3d(segment.d), segment.tMin, segment.tMax);
   if (!span) return 0;
-  return medium_.emissionDistancePdf({reference, wi, span->tMin, span->tMax}, t);
+  return medium_.medium->emissionDistancePdf({segment.o, segment.d, span->tMin, span->tMax}, t);
 }
 
-std::vector<std::unique_ptr<MediumLight>> makeMediumLights(std::span<const Primitive* const> primitives) {
-  std::vector<std::unique_ptr<MediumLight>> lights;
-  std::vector<const Medium*> seen;
-  for (const Primitive* p : primitives) {
-    for (const Medium* medium : {p->media.inside, p->media.outside}) {
-      if (!medium || !medium->isEmissive() || p->media.same()) continue;
-      if (std::find(seen.begin(), seen.end(), medium) != seen.end()) continue;
-      seen.push_back(medium);
-      Bounds3f boundary;
-      for (const Primitive* other : primitives) {
-        if (other->media.inside == medium && !other->media.same()) boundary.expand(other->shape->bounds());
-      }
-      if (auto volume = medium->emissionVolume(boundary)) {
-        lights.push_back(std::make_unique<MediumLight>(*medium, std::move(volume)));
-      }
+std::vector<MediumEmitter> mediumEmittersOf(std::span<const Primitive* const> primitives, bool inObject) {
+  std::vector<MediumEmitter> emitters;
+  const auto emitterOf = [&](const Medium* medium) -> MediumEmitter* {
+    if (!medium || !medium->isEmissive()) return nullptr;
+    for (MediumEmitter& e : emitters) {
+      if (e.medium == medium) return &e;
     }
+    return &emitters.emplace_back(MediumEmitter{medium, {}});
+  };
+  for (const Primitive* p : primitives) {
+    if (p->media.same()) continue;
+    if (MediumEmitter* const inside = emitterOf(p->media.inside)) inside->boundary.expand(p->shape->bounds());
+    if (!inObject) emitterOf(p->media.outside);
   }
-  return lights;
+  return emitters;
+}
+
+std::size_t MediumLights::Hash::operator()(const PlacedMedium& m) const {
+  return std::hash<const void*>()(m.medium) ^ (std::hash<const void*>()(m.placement) * 31);
+}
+
+const EmissionVolume* MediumLights::volumeOf(const MediumEmitter& emitter) {
+  MediumEmitter key = emitter;
+  const Bounds3f own = key.medium->bounds();
+  if (own.isEmpty() || maxComponent(own.diagonal()) < kInfinity) key.boundary = {};  // it does not matter
+  for (const Volume& v : volumes_) {
+    if (v.emitter.medium == key.medium && v.emitter.boundary == key.boundary) return v.volume.get();
+  }
+  volumes_.push_back({key, key.medium->emissionVolume(key.boundary)});
+  return volumes_.back().volume.get();
+}
+
+void MediumLights::add(std::span<const MediumEmitter> emitters, const Placement* placement) {
+  for (MediumEmitter emitter : emitters) {
+    if (placement && !emitter.boundary.isEmpty()) {
+      emitter.boundary = placement->mediaFromObject().bounds(emitter.boundary);
+    }
+    const EmissionVolume* const volume = volumeOf(emitter);
+    if (!volume) continue;
+    const PlacedMedium placed{emitter.medium, placement};
+    numbers_.emplace(placed, lights_.size());
+    lights_.emplace_back(placed, *volume);
+  }
+}
+
+std::optional<std::size_t> MediumLights::find(const PlacedMedium& medium) const {
+  const auto found = numbers_.find(medium);
+  if (found == numbers_.end()) return std::nullopt;
+  return found->second;
 }
 
 }  // namespace pbrtmedia

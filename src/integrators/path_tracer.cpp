@@ -192,14 +192,14 @@ float PathTracer::emissionWeight(std::size_t light, const SurfaceInteraction* si
 
 /// The same for emission that a medium shows at `t` of the segment.
 float PathTracer::mediumEmissionWeight(const PlacedMedium& medium, double t) const {
-  if (isDirect_ || medium.placement) return 1;  // a placed medium is no light
-  const std::optional<std::size_t> light = setup_.scene.lightOf(medium.medium);
+  if (isDirect_) return 1;
+  const std::optional<std::size_t> light = setup_.scene.lightOf(medium);
   if (!light) return 1;
   const MediumLight& source = *setup_.scene.mediumLight(*light);
   const double lightPdf =
-      double{setup_.selector->probability(ray_.o, *light)} * source.pdfAt(ray_.o, ray_.d, t);
+      double{setup_.selector->probability(ray_.o, *light)} * source.pdfAt(ray_.o, ray_.d, t, ray_.time);
   if (!(lightPdf > 0)) return 1;  // outside of what light samples look at
-  return powerHeuristic(static_cast<float>(directionPdf_ * source.distancePdf(ray_.o, ray_.d, t)),
+  return powerHeuristic(static_cast<float>(directionPdf_ * source.distancePdf(ray_.o, ray_.d, t, ray_.time)),
                         static_cast<float>(lightPdf));
 }
 
@@ -279,7 +279,9 @@ std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool sca
   const LightSelector::Choice choice = setup_.selector->choose(p, samples_.get1D());
   const Point2f u = samples_.get2D();
   if (skips(choice.light)) return std::nullopt;
-  PickedLight picked{choice.light, lights[choice.light]->sample(p, u)};
+  const MediumLight* const emitter = setup_.scene.mediumLight(choice.light);
+  PickedLight picked{choice.light,
+                     emitter ? emitter->sample(p, u, ray_.time) : lights[choice.light]->sample(p, u)};
   if (!(picked.sample.pdf > 0) || picked.sample.radiance.isBlack()) return std::nullopt;
   picked.sample.pdf *= choice.probability;
   return picked;
@@ -298,7 +300,7 @@ Rgb PathTracer::unoccluded(const PickedLight& light, Point3f p, PrimitiveId star
     // As often as the medium is there, as distances are sampled.
     float present = 0;
     for (std::size_t i = 0; i < end.activeCount(); ++i) {
-      if (end.active(i) == PlacedMedium{&emitter->medium(), nullptr}) ++present;
+      if (end.active(i) == emitter->medium()) ++present;
     }
     return through * present;
   }
@@ -310,7 +312,7 @@ float PathTracer::lightWeight(const PickedLight& light, Point3f p, float directi
   if (setup_.lights[light.index]->isDelta()) return 1;
   const LightSample& s = light.sample;
   if (const MediumLight* const emitter = setup_.scene.mediumLight(light.index)) {
-    directionPdf *= static_cast<float>(emitter->distancePdf(p, s.wi, double{s.distance}));
+    directionPdf *= static_cast<float>(emitter->distancePdf(p, s.wi, double{s.distance}, ray_.time));
   }
   return powerHeuristic(s.pdf, directionPdf);
 }

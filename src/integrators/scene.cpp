@@ -17,11 +17,15 @@ Transform Placement::objectFromWorld(double time) const {
   return worldFromObject_.isAnimated() ? worldFromObject_.at(time).inverse() : objectFromWorld_;
 }
 
+Transform Placement::mediaFromWorld(double time) const {
+  return worldFromObject_.isAnimated() ? mediaFromObject_ * objectFromWorld(time) : mediaFromWorld_;
+}
+
 Segment Placement::toObject(const Segment& s, float time) const {
   if (!worldFromObject_.isAnimated()) {
     return {mediaFromWorld_.point(s.o), mediaFromWorld_.vector(s.d), s.tMin, s.tMax};
   }
-  const Transform m = mediaFromObject_ * objectFromWorld(time);
+  const Transform m = mediaFromWorld(double{time});
   return {m.point(s.o), m.vector(s.d), s.tMin, s.tMax};
 }
 
@@ -34,7 +38,8 @@ Scene::Scene(std::unique_ptr<Parts> parts)
     if (lights_[i]->isInfinite()) infiniteLights_.push_back(i);
   }
   lightsWithMedia_ = lights_;
-  for (const auto& light : parts_->mediumLights) lightsWithMedia_.push_back(light.get());
+  for (std::size_t i = 0; i < parts_->mediumLights.size(); ++i)
+    lightsWithMedia_.push_back(&parts_->mediumLights[i]);
   hasVisibleEmitters_ = !infiniteLights_.empty();
   const auto emits = [](const Medium* medium) { return medium && medium->isEmissive(); };
   for (const auto& group : primitiveGroups()) {
@@ -49,15 +54,14 @@ Scene::Scene(std::unique_ptr<Parts> parts)
 
 Scene::~Scene() = default;
 
-std::optional<std::size_t> Scene::lightOf(const Medium* medium) const {
-  for (std::size_t i = 0; i < parts_->mediumLights.size(); ++i) {
-    if (&parts_->mediumLights[i]->medium() == medium) return lights_.size() + i;
-  }
-  return std::nullopt;
+std::optional<std::size_t> Scene::lightOf(const PlacedMedium& medium) const {
+  const std::optional<std::size_t> number = parts_->mediumLights.find(medium);
+  if (!number) return std::nullopt;
+  return lights_.size() + *number;
 }
 
 const MediumLight* Scene::mediumLight(std::size_t light) const {
-  return light < lights_.size() ? nullptr : parts_->mediumLights[light - lights_.size()].get();
+  return light < lights_.size() ? nullptr : &parts_->mediumLights[light - lights_.size()];
 }
 
 const std::vector<Medium*>& Scene::media() const { return parts_->media; }

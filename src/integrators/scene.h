@@ -14,6 +14,7 @@
 namespace pbrtmedia {
 
 class MediumLight;
+struct PlacedMedium;
 
 /// An object placed in the world. A medium seen through a placement moves along with it.
 class Placement {
@@ -23,10 +24,12 @@ class Placement {
             const Transform& mediaFromObject = Transform());
   std::uint32_t object() const { return object_; }
   Transform worldFromObject(double time) const { return worldFromObject_.at(time); }
+  Transform objectFromWorld(double time) const;
+  const Transform& mediaFromObject() const { return mediaFromObject_; }
+  Transform mediaFromWorld(double time) const;
   /// The same line in the space in which the object's media were defined; t keeps its meaning as a world
   /// length.
   Segment toObject(const Segment& segmentWorld, float time) const;
-  Transform objectFromWorld(double time) const;
 
  private:
   std::uint32_t object_;
@@ -80,7 +83,7 @@ class Scene {
   /// The same, followed by the emissive media; for integrators that render media.
   const std::vector<const Light*>& lightsWithMedia() const { return lightsWithMedia_; }
   /// Number in lightsWithMedia() of a medium; nothing when light sampling does not look for it.
-  std::optional<std::size_t> lightOf(const Medium* medium) const;
+  std::optional<std::size_t> lightOf(const PlacedMedium& medium) const;
   /// Number `light` of lightsWithMedia(), null when that is no medium.
   const MediumLight* mediumLight(std::size_t light) const;
   /// Some primitive names a medium that emits.

@@ -31,6 +31,12 @@ void Scene::Parts::Group::findAmbientMedia() {
   for (PlacedPrimitive& p : primitives) p.outsideIsAmbient = enclosed.count(p.primitive.media.outside) == 0;
 }
 
+std::vector<MediumEmitter> Scene::Parts::Group::mediumEmitters(bool inObject) const {
+  std::vector<const Primitive*> placed;
+  for (const PlacedPrimitive& p : primitives) placed.push_back(&p.primitive);
+  return mediumEmittersOf(placed, inObject);
+}
+
 SceneBuilder::SceneBuilder() : parts_(std::make_unique<Scene::Parts>()) {}
 SceneBuilder::~SceneBuilder() = default;
 
@@ -88,9 +94,10 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
   parts_->top.accelerator.build();
   const Bounds3f bounds = parts_->top.accelerator.bounds();
   for (Light* light : parts_->lights) light->preprocess(bounds);
-  std::vector<const Primitive*> placed;
-  for (const Scene::Parts::PlacedPrimitive& p : parts_->top.primitives) placed.push_back(&p.primitive);
-  parts_->mediumLights = makeMediumLights(placed);
+  parts_->mediumLights.add(parts_->top.mediumEmitters(/*inObject=*/false), nullptr);
+  std::vector<std::vector<MediumEmitter>> ofObjects;
+  for (const Scene::Parts::Group& o : parts_->objects) ofObjects.push_back(o.mediumEmitters(true));
+  for (const Placement& p : parts_->placements) parts_->mediumLights.add(ofObjects[p.object()], &p);
   return std::unique_ptr<Scene>(new Scene(std::move(parts_)));
 }
 

@@ -29,6 +29,7 @@ struct Scene::Parts {
 
     std::uint32_t add(Primitive primitive);
     void findAmbientMedia();
+    std::vector<MediumEmitter> mediumEmitters(bool inObject) const;
   };
   /// What a geometry or instance number of the top level means; one of the two is set.
   struct Entry {
@@ -41,7 +42,7 @@ struct Scene::Parts {
   std::vector<std::unique_ptr<Light>> freeLights;
   std::vector<Light*> lights;
   std::vector<PrimitiveId> lightTargets;
-  std::vector<std::unique_ptr<MediumLight>> mediumLights;
+  MediumLights mediumLights;
   std::deque<Group> objects;
   std::deque<Placement> placements;
   std::vector<Entry> entries;

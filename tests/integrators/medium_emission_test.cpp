@@ -23,8 +23,9 @@ struct Gas {
 };
 constexpr std::array kStorages = {Gas::Storage::Homogeneous, Gas::Storage::Grid};
 
-/// A grid reaches over [-3, 3]^3, beyond every boundary of these tests.
-const Medium* make(SceneKit& kit, const Gas& gas, const std::string& name = "gas", OverlapRule overlap = {}) {
+/// A grid reaches over [-3, 3]^3 of `place`, beyond every boundary of these tests.
+const Medium* make(SceneKit& kit, const Gas& gas, const std::string& name = "gas", OverlapRule overlap = {},
+                   const Transform& place = {}) {
   GridMediumParams p;
   p.name = name;
   p.sigmaA = gas.sigmaA;
@@ -39,10 +40,38 @@ const Medium* make(SceneKit& kit, const Gas& gas, const std::string& name = "gas
   p.grid.border = GridBorder::Clamp;
   p.grid.p0 = {-3, -3, -3};
   p.grid.p1 = {3, 3, 3};
-  return kit.builder.own(makeGridMedium(p, Transform()));
+  return kit.builder.own(makeGridMedium(p, place));
 }
 
-const Ray kDown = rayOf({0.1f, 0.2f, 5}, {0, 0, -1});
+constexpr float kTime = 0.5f;  ///< of all rays
+
+/// How an object stands in the world.
+struct Placing {
+  const char* name;
+  AnimatedTransform worldFromObject;
+  Transform mediaFromObject;
+};
+const Transform kSkew = Transform::translate({1, -2, 3}) * Transform::rotate(40, {1, 2, 3}) *
+                        Transform::scale(2, 0.5, 3) * Transform::rotate(70, {3, 1, 0});
+std::vector<Placing> placings() {
+  const auto turned = [](double degrees) {
+    return Transform::translate({degrees / 50, 0, 0}) * Transform::rotate(degrees, {1, 1, 0}) *
+           Transform::scale(1 + degrees / 90, 2, 0.5);
+  };
+  return {{"translated", AnimatedTransform(Transform::translate({3, 1, -2})), {}},
+          {"rotated", AnimatedTransform(Transform::rotate(130, {2, -1, 1})), {}},
+          {"skewed", AnimatedTransform(kSkew), {}},
+          {"mirrored", AnimatedTransform(Transform::scale(-0.5, 2, 1)), {}},
+          {"moving", AnimatedTransform(turned(0), 0, turned(80), 1), {}},
+          {"a moving shape", AnimatedTransform(turned(0), 0, turned(80), 1), kSkew}};
+}
+
+Ray rayAtTime(Point3f o, Vector3f d) {
+  Ray ray = rayOf(o, d);
+  ray.time = kTime;
+  return ray;
+}
+const Ray kDown = rayAtTime({0.1f, 0.2f, 5}, {0, 0, -1});
 
 Estimates throughSlab(const Gas& gas, float thickness, std::uint64_t n, int maxDepth = 0) {
   SceneKit kit;
@@ -105,25 +134,52 @@ TEST(MediumEmission, HotFurnaceIsWhite) {
   }
 }
 
-/// A floor under a glowing ball, seen from above. `placed`: the ball is in an object, whose media are no
-/// lights: scattered rays alone find it.
-std::unique_ptr<Scene> glowingBall(const Gas& gas, bool placed) {
-  SceneKit kit;
-  const Medium* medium = make(kit, gas);
-  const Shape* ball = kit.sphere({0, 0, 0}, 1);
-  if (placed) {
-    const auto object = kit.builder.addObject({{.shape = ball, .media = {medium, nullptr}}});
-    kit.builder.addInstance(object, AnimatedTransform(Transform()));
-  } else {
-    kit.builder.addPrimitive({.shape = ball, .media = {medium, nullptr}});
+/// Adds the unit ball filled with gas: directly, or as an object that stands so that it looks the same.
+void addBall(SceneKit& kit, const Gas& gas, const Placing* placing) {
+  if (!placing) {
+    kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 1), .media = {make(kit, gas), nullptr}});
+    return;
   }
+  const Transform objectFromWorld = placing->worldFromObject.at(double{kTime}).inverse();
+  const Medium* medium = make(kit, gas, "gas", {}, placing->mediaFromObject * objectFromWorld);
+  // A mirrored sphere is inside out unless it is reversed.
+  const Shape* ball = kit.builder.own(std::make_unique<Sphere>(
+      Sphere::Params{}, ShapePlacement{objectFromWorld, objectFromWorld.swapsHandedness()}));
+  const auto object = kit.builder.addObject({{.shape = ball, .media = {medium, nullptr}}});
+  kit.builder.addInstance(object, placing->worldFromObject, placing->mediaFromObject);
+}
+
+/// A floor under the ball, seen from above.
+std::unique_ptr<Scene> glowingBall(const Gas& gas, const Placing* placing = nullptr) {
+  SceneKit kit;
+  addBall(kit, gas, placing);
   kit.builder.addPrimitive({.shape = kit.square(-2, 10), .material = kit.matte(0.5f)});
   return kit.finish();
 }
-const Ray kAtFloor = rayOf({2, 0, -1}, {-2, 0, -1});  // reaches it below the ball's centre
+const Ray kAtFloor = rayAtTime({2, 0, -1}, {-2, 0, -1});  // reaches it below the ball's centre
 
-TEST(MediumEmission, FloorUnderAGlowingBallEqualsQuadrature) {
-  const double sigma = 0.7, h = 2, kd = 0.5;
+/// Always picks the first light, a dark one: emission is found by distances alone.
+class PicksTheDark final : public LightSelector {
+ public:
+  Choice choose(Point3f, float) const override { return {0, 1}; }
+  float probability(Point3f, std::size_t light) const override { return light == 0 ? 1.0f : 0.0f; }
+};
+/// Estimates in glowingBall() by distance sampling alone.
+Estimates unlit(const Gas& gas, const Placing* placing, const PathParams& params, const Ray& ray,
+                std::uint64_t n) {
+  SceneKit kit;
+  addBall(kit, gas, placing);
+  kit.builder.addPrimitive({.shape = kit.square(-2, 10), .material = kit.matte(0.5f)});
+  kit.pointLight({9, 9, 9}, 0);
+  const auto scene = kit.finish();
+  const VolPathIntegrator integrator(*scene, params, std::make_unique<PicksTheDark>(),
+                                     CameraMedium(*scene, kFarAway, 0, nullptr));
+  return estimate(integrator, ray, n, 2);
+}
+
+/// What kAtFloor sees of a ball of this sigma_a that emits 3.
+double floorUnderBall(double sigma) {
+  const double h = 2, kd = 0.5;
   double truth = 0;
   constexpr int kSteps = 100000;
   const double edge = std::asin(1 / h);
@@ -132,13 +188,17 @@ TEST(MediumEmission, FloorUnderAGlowingBallEqualsQuadrature) {
     const double chord = 2 * std::sqrt(std::max(0.0, 1 - h * h * s * s));
     truth += kd * 2 * std::cos(a) * s * 3 * -std::expm1(-sigma * chord) * edge / kSteps;
   }
+  return truth;
+}
+
+TEST(MediumEmission, FloorUnderAGlowingBallEqualsQuadrature) {
+  const double truth = floorUnderBall(double{0.7f});
   for (const auto storage : kStorages) {
-    const Gas gas{Rgb(static_cast<float>(sigma)), Rgb(0), Rgb(3), storage};
-    const auto lit = glowingBall(gas, false), unlit = glowingBall(gas, true);
+    const Gas gas{Rgb(0.7f), Rgb(0), Rgb(3), storage};
+    const auto lit = glowingBall(gas);
     EXPECT_EQ(lit->lightsWithMedia().size(), 1u);
-    EXPECT_EQ(unlit->lightsWithMedia().size(), 0u);
     const Estimates a = estimate(*makeVolPath(*lit, {.maxDepth = 1}), kAtFloor, 1 << 17),
-                    b = estimate(*makeVolPath(*unlit, {.maxDepth = 1}), kAtFloor, 1 << 17, 2);
+                    b = unlit(gas, nullptr, {.maxDepth = 1}, kAtFloor, 1 << 17);
     const ZTest with = zTest(a.red, truth), without = zTest(b.red, truth);
     EXPECT_LT(std::abs(with.z()), kMaxAbsZ) << with;
     EXPECT_LT(std::abs(without.z()), kMaxAbsZ) << without;
@@ -147,6 +207,105 @@ TEST(MediumEmission, FloorUnderAGlowingBallEqualsQuadrature) {
     EXPECT_GT(zTest(a.red, truth / 2).z(), kMaxAbsZ);
     EXPECT_GT(zTest(a.red, truth * 0.97).z(), kMaxAbsZ) << "three percent are seen";
   }
+}
+
+TEST(PlacedEmission, LightsTheFloorAsIfPlacedDirectly) {
+  const double truth = floorUnderBall(double{0.7f});
+  for (const Placing& placing : placings()) {
+    for (const auto storage : kStorages) {
+      const Gas gas{Rgb(0.7f), Rgb(0), Rgb(3), storage};
+      const auto lit = glowingBall(gas, &placing);
+      EXPECT_EQ(lit->lights().size(), 0u);
+      EXPECT_EQ(lit->lightsWithMedia().size(), 1u);
+      const Estimates a = estimate(*makeVolPath(*lit, {.maxDepth = 1}), kAtFloor, 1 << 16),
+                      b = unlit(gas, &placing, {.maxDepth = 1}, kAtFloor, 1 << 16);
+      const ZTest with = zTest(a.red, truth), without = zTest(b.red, truth);
+      EXPECT_LT(std::abs(with.z()), kMaxAbsZ) << placing.name << ": " << with;
+      EXPECT_LT(std::abs(without.z()), kMaxAbsZ) << placing.name << ": " << without;
+      // The box around a turned ball is large, and many of its points are outside the ball.
+      if (storage == Gas::Storage::Homogeneous && placing.name == std::string("translated")) {
+        EXPECT_LT(with.standardError, 0.7 * without.standardError) << "light samples must help";
+      }
+      EXPECT_GT(zTest(a.red, truth * 0.95).z(), kMaxAbsZ) << "five percent are seen";
+    }
+  }
+}
+
+TEST(PlacedEmission, OfScatteringGasLooksAsIfPlacedDirectly) {
+  const PathParams params{.maxDepth = 6};
+  for (const auto storage : kStorages) {
+    const Gas gas{Rgb(0.5f, 0.2f, 1), Rgb(2, 1, 0.5f), Rgb(1, 2, 3), storage};
+    const Estimates direct = estimate(*makeVolPath(*glowingBall(gas), params), kDown, 1 << 14);
+    for (const Placing& placing : placings()) {
+      const Estimates placed = estimate(*makeVolPath(*glowingBall(gas, &placing), params), kDown, 1 << 14, 2);
+      EXPECT_EQ(placed.counters.mediumMismatches, 0u);
+      for (const auto& [x, y] : {std::pair{&direct.red, &placed.red},
+                                 {&direct.green, &placed.green},
+                                 {&direct.blue, &placed.blue}}) {
+        const ZTest same = zTest(*x, *y);
+        EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << placing.name << ": " << same;
+      }
+    }
+  }
+}
+
+TEST(PlacedEmission, HotFurnaceIsWhite) {
+  for (const Placing& placing : placings()) {
+    for (const auto storage : kStorages) {
+      SceneKit kit;
+      addBall(kit, {Rgb(0.5f), Rgb(1), Rgb(1), storage}, &placing);
+      kit.builder.addPrimitive({.shape = kit.sphere({0.3f, 0, 0}, 0.4f), .material = kit.matte(1)});
+      kit.sky(1);
+      const auto scene = kit.finish();
+      EXPECT_EQ(scene->lightsWithMedia().size(), 2u);
+      const ZTest test = zTest(estimate(*makeVolPath(*scene, {.maxDepth = 100000}),
+                                        rayAtTime({0.3f, 0.2f, 5}, {0, 0, -1}), 1 << 12)
+                                   .red,
+                               1);
+      EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << placing.name << ": " << test;
+      EXPECT_LT(test.standardError, 0.03) << "a bias of a sixth must be seen";
+    }
+  }
+}
+
+TEST(PlacedEmission, EveryPlacementIsALightOfItsOwn) {
+  // The same box three times, once scaled to 24 times its volume: that many times the power.
+  SceneKit kit;
+  const Medium* gas = make(kit, {Rgb(2), Rgb(0), Rgb(3)});
+  const Medium* smoke = kit.fog("smoke", Rgb(1), Rgb(1));
+  const auto object =
+      kit.builder.addObject({{.shape = kit.box({0, 0, 0}, {1, 1, 1}), .media = {gas, nullptr}},
+                             {.shape = kit.box({4, 0, 0}, {5, 1, 1}), .media = {smoke, gas}}});
+  kit.builder.addPrimitive({.shape = kit.box({0, 0, 9}, {1, 1, 10}), .media = {gas, nullptr}});
+  kit.builder.addInstance(object, AnimatedTransform(Transform::translate({0, 5, 0})));
+  kit.builder.addInstance(object, AnimatedTransform(Transform::scale(2, -3, 4)));
+  const auto scene = kit.finish();
+  ASSERT_EQ(scene->lightsWithMedia().size(), 3u);
+  const float power = 4 * kPi * 6;
+  for (const auto& [number, volume] : {std::pair{0u, 1.0f}, {1u, 1.0f}, {2u, 24.0f}}) {
+    const MediumLight& light = *scene->mediumLight(number);
+    EXPECT_EQ(scene->lightOf(light.medium()), number);
+    EXPECT_NEAR(light.power().r, power * volume, 1e-4f * power * volume);
+    const Point3f from{7, 8, 20};
+    for (const Point2f u : {Point2f(0.1f, 0.2f), Point2f(0.9f, 0.4f)}) {
+      const LightSample s = light.sample(from, u, kTime);
+      EXPECT_NEAR(s.pdf, sqr(s.distance) / volume, 1e-4f * s.pdf);
+      EXPECT_NEAR(light.pdfAt(from, s.wi, double{s.distance}, kTime), double{s.pdf}, 1e-4 * double{s.pdf});
+      EXPECT_EQ(s.radiance, Rgb(6)) << "coefficients are per length of the world";
+    }
+  }
+}
+
+TEST(PlacedEmission, OfAMediumAroundTheObjectIsNotTheObjects) {
+  SceneKit kit;
+  const Medium* gas = make(kit, {Rgb(2), Rgb(0), Rgb(3)});
+  const auto object = kit.builder.addObject(
+      {{.shape = kit.sphere({0, 0, 0}, 1), .media = {kit.fog("fog", Rgb(1), Rgb(1)), gas}}});
+  kit.builder.addPrimitive({.shape = kit.box({-9, -9, -9}, {9, 9, 9}), .media = {gas, nullptr}});
+  kit.builder.addInstance(object, AnimatedTransform(kSkew));
+  const auto scene = kit.finish();
+  ASSERT_EQ(scene->lightsWithMedia().size(), 1u);
+  EXPECT_EQ(scene->mediumLight(0)->medium().placement, nullptr);
 }
 
 TEST(MediumEmission, EverySelectionStrategyFindsTheGas) {
@@ -175,8 +334,8 @@ TEST(MediumEmission, LightSamplingDoesNotChangeTheMeanOfScatteringGas) {
   for (const auto storage : kStorages) {
     const Gas gas{Rgb(0.5f, 0.2f, 1), Rgb(2, 1, 0.5f), Rgb(1, 2, 3), storage};
     const PathParams params{.maxDepth = 6};
-    const Estimates a = estimate(*makeVolPath(*glowingBall(gas, false), params), kDown, 1 << 15),
-                    b = estimate(*makeVolPath(*glowingBall(gas, true), params), kDown, 1 << 15, 2);
+    const Estimates a = estimate(*makeVolPath(*glowingBall(gas), params), kDown, 1 << 15),
+                    b = unlit(gas, nullptr, params, kDown, 1 << 15);
     for (const auto& [x, y] : {std::pair{&a.red, &b.red}, {&a.green, &b.green}, {&a.blue, &b.blue}}) {
       const ZTest same = zTest(*x, *y);
       EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
@@ -274,13 +433,12 @@ TEST(MediumEmission, TemperatureGridEqualsConstantBlackBody) {
 }
 
 TEST(MediumEmission, PathIgnoresIt) {
-  const auto scene = glowingBall({Rgb(1), Rgb(0), Rgb(5)}, false);
+  const auto scene = glowingBall({Rgb(1), Rgb(0), Rgb(5)});
   EXPECT_EQ(estimate(*makePath(*scene), kAtFloor, 64).red.mean(), 0);
   EXPECT_TRUE(scene->lights().empty());
 }
 
 TEST(MediumLight, DensitiesAreThoseOfItsSamples) {
-  SceneKit kit;
   GridMediumParams p;
   p.name = "fire";
   p.sigmaA = Rgb(1);
@@ -290,27 +448,12 @@ TEST(MediumLight, DensitiesAreThoseOfItsSamples) {
   for (int i = 0; i < 512; ++i) p.grid.density.push_back(static_cast<float>(i % 64 > 40 ? i % 7 : 0));
   p.grid.p0 = {-1, -2, -1};
   p.grid.p1 = {1, 2, 3};
-  const Medium* fire = kit.builder.own(makeGridMedium(p, Transform::rotate(30, {1, 2, 3})));
-  const MediumLight light(*fire, fire->emissionVolume({}));
-  const Point3f x{4, 1, 2};
-  Rng rng(3);
-  RunningStats total;
-  for (int i = 0; i < 1 << 16; ++i) {
-    const LightSample s = light.sample(x, {rng.uniform(), rng.uniform()});
-    ASSERT_GT(s.pdf, 0);
-    if (i < 1000) {
-      EXPECT_NEAR(light.pdfAt(x, s.wi, double{s.distance}), s.pdf, 1e-4 * s.pdf) << i;
-      if (s.radiance.r > 0) {
-        EXPECT_GT(light.distancePdf(x, s.wi, double{s.distance}), 0) << i;
-      }
-    }
-    total.add(double{s.radiance.r} * sqr(double{s.distance}) / double{s.pdf});
-  }
+  const Transform place = Transform::rotate(30, {1, 2, 3});
   // The integral of sigma_a Le over the volume, by a midpoint rule.
+  const std::unique_ptr<Medium> fire = makeGridMedium(p, place);
   RenderCounters counters;
   double truth = 0;
   constexpr int kSteps = 64;
-  const Transform place = Transform::rotate(30, {1, 2, 3});
   for (int k = 0; k < kSteps; ++k) {
     for (int j = 0; j < kSteps; ++j) {
       for (int i = 0; i < kSteps; ++i) {
@@ -321,7 +464,29 @@ TEST(MediumLight, DensitiesAreThoseOfItsSamples) {
     }
   }
   truth *= 32.0 / (kSteps * kSteps * kSteps);
-  EXPECT_NEAR(total.mean(), truth, kMaxAbsZ * total.standardError() + 1e-3 * truth);
+
+  const Placement skewed(0, AnimatedTransform(kSkew));
+  for (const Placement* placement : {static_cast<const Placement*>(nullptr), &skewed}) {
+    const std::unique_ptr<const EmissionVolume> volume = fire->emissionVolume({});
+    const MediumLight light({fire.get(), placement}, *volume);
+    const Point3f x{4, 1, 2};
+    Rng rng(3);
+    RunningStats total;
+    for (int i = 0; i < 1 << 16; ++i) {
+      const LightSample s = light.sample(x, {rng.uniform(), rng.uniform()}, kTime);
+      ASSERT_GT(s.pdf, 0);
+      if (i < 1000) {
+        EXPECT_NEAR(light.pdfAt(x, s.wi, double{s.distance}, kTime), s.pdf, 1e-4 * s.pdf) << i;
+        if (s.radiance.r > 0) {
+          EXPECT_GT(light.distancePdf(x, s.wi, double{s.distance}, kTime), 0) << i;
+        }
+      }
+      total.add(double{s.radiance.r} * sqr(double{s.distance}) / double{s.pdf});
+    }
+    const double world = placement ? truth * 3 : truth;  // kSkew scales volumes by 2 * 0.5 * 3
+    EXPECT_NEAR(total.mean(), world, kMaxAbsZ * total.standardError() + 1e-3 * world);
+    EXPECT_LT(total.standardError(), 0.02 * world);
+  }
 }
 
 }  // namespace
