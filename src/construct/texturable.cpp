@@ -70,8 +70,6 @@ std::optional<TextureUse<float>> Texturable::optionalFloat(std::string_view name
   return find<float>(name, range);
 }
 
-std::optional<TextureUse<Rgb>> Texturable::optionalRgb(std::string_view name) { return find<Rgb>(name, {}); }
-
 template <class T>
 TextureUse<T> Texturable::findOr(std::string_view name, T fallback, Range range) {
   auto use = find<T>(name, range).value_or(TextureUse<T>{TextureUse<T>::kConstant, fallback});

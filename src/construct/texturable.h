@@ -35,7 +35,6 @@ class Texturable {
   TextureUse<float> findFloat(std::string_view name, float fallback, Range range = {});
   TextureUse<Rgb> findRgb(std::string_view name, Rgb fallback);
   std::optional<TextureUse<float>> optionalFloat(std::string_view name, Range range = {});
-  std::optional<TextureUse<Rgb>> optionalRgb(std::string_view name);
   bool findBool(std::string_view name, bool fallback);
   std::optional<std::string> optionalString(std::string_view name);
 

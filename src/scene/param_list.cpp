@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "scene/param_list.h"
 
-#include <algorithm>
-
 namespace pbrtmedia {
 
 std::string_view keyword(ParamKind kind) {
@@ -31,10 +29,6 @@ std::string_view keyword(ParamKind kind) {
       return "texture";
   }
   return {};
-}
-
-bool Param::hasLocationOf(std::size_t element) const {
-  return element * tokensPerElement < std::max<std::size_t>(marks.size(), 1);
 }
 
 SourceLocation Param::locationOf(std::size_t element) const {

@@ -58,10 +58,9 @@ struct Param {
   std::size_t size() const {
     return std::visit([](const auto& v) { return v.size(); }, values);
   }
-  /// The text of an element, or the start of the list where the element is too far into a long list (then
-  /// say the index in the message; `hasLocationOf` tells).
+  /// The text of an element, or the start of the list where the element is too far into a long list: then say
+  /// the index in the message.
   SourceLocation locationOf(std::size_t element) const;
-  bool hasLocationOf(std::size_t element) const;
 };
 
 /// The parameters of one directive: plain values. Read them through a `ParamReader`.

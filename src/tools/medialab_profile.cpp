@@ -142,13 +142,6 @@ Image plot(const Profile& profile) {
 
 }  // namespace
 
-LabTable profileTable(const ProfileOptions& o) {
-  const CanonicalFunction function = selectFunctions({o.function}).front();
-  LabTable table = emptyTable(o);
-  fill(o, measure(o, function, table), table);
-  return table;
-}
-
 int runProfile(const ProfileOptions& o) {
   const CanonicalFunction function = selectFunctions({o.function}).front();
   LabTable table = emptyTable(o);

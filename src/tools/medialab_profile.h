@@ -18,11 +18,8 @@ struct ProfileOptions {
   std::string picture;     ///< image file to plot into; empty: none
 };
 
-/// One line: the extinction and its controls along it (kind "field"), and where one estimate of each
-/// estimator looked, in the order of its look-ups (kind: the estimator). Extinctions in 1 / length.
-LabTable profileTable(const ProfileOptions& options);
-
-/// `medialab profile`.
+/// `medialab profile`. One line: the extinction and its controls along it (kind "field"), and where one estimate
+/// of each estimator looked, in the order of its look-ups (kind: the estimator). Extinctions in 1 / length.
 int runProfile(const ProfileOptions& options);
 
 }  // namespace pbrtmedia

@@ -53,7 +53,6 @@ struct LabProblem {
 
   double depth() const { return sigmaT * line.integral(); }
   double controlDepth() const { return sigmaT * line.upperIntegral(); }
-  double lowerDepth() const { return sigmaT * line.lowerIntegral(); }
   double transmittance(const AnyLaw& law) const { return transmittanceOf(law, depth()); }
 };
 

@@ -131,8 +131,6 @@ TEST(ParamParser, EveryEntryKnowsItsPlaces) {
   EXPECT_EQ(p.declaredAt.length, 9u);
   EXPECT_EQ(p.valuesAt.toString(), "t.pbrt:2:13");
   EXPECT_EQ(p.locationOf(1).toString(), "t.pbrt:3:3");
-  EXPECT_TRUE(p.hasLocationOf(1));
-  EXPECT_FALSE(p.hasLocationOf(100));
   EXPECT_EQ(p.locationOf(100).toString(), "t.pbrt:2:13");
 }
 
