@@ -5,10 +5,13 @@
     bench/scene_bench.py build/release/bin SCENE.pbrt... [--estimators ratio,regular] [--samplers delta,weighted-delta]
                          [--spp 8] [--rounds 3] [--crop x0 x1 y0 y1] [--csv FILE]
 
+A method may bring float parameters: ratio+roulettethreshold=0.3.
+
 Each round renders every variant twice with seeds of its own, in turn, so that all meet the same machine. The variance of
 a variant is half the mean squared difference of its two images, which needs no reference image and is its error as
-far as it is unbiased. Printed are medians over the rounds: look-ups and CPU microseconds per camera sample, variance,
-and "work", variance times CPU seconds of rendering, as a ratio to the first variant: the time to equal error.
+far as it is unbiased. Printed are look-ups per camera sample and the variance as means over the rounds, CPU microseconds
+per camera sample as the median, and "work", variance times CPU, as a ratio to the first variant: the time to equal error.
+The range is that of the rounds' own ratios.
 """
 import argparse
 import csv
@@ -20,10 +23,18 @@ import tempfile
 from pathlib import Path
 
 
+def parameter(kind: str, method: str) -> str:
+    name, *values = method.split("+")
+    text = f'"string {kind}" "{name}"'
+    for value in values:
+        text += ' "float {}" {}'.format(*value.split("="))
+    return text
+
+
 def render(tools: Path, scene: str, variant: tuple[str, str], seed: int, options, out: Path) -> dict:
     stats = out.with_suffix(".json")
     command = [tools / "pbrt", scene, "--spp", str(options.spp), "--seed", str(seed), "--outfile", out, "--quiet",
-               "--stats", stats, "--mediumparams", f'"string transmittance" "{variant[0]}" "string freeflight" "{variant[1]}" {options.params}']
+               "--stats", stats, "--mediumparams", f'{parameter("transmittance", variant[0])} {parameter("freeflight", variant[1])} {options.params}']
     if options.crop:
         command += ["--cropwindow", *map(str, options.crop)]
     done = subprocess.run(command, capture_output=True, text=True)
@@ -64,15 +75,22 @@ def main() -> None:
                 for variant in variants:
                     found[variant].append(measure(options.tools, scene, variant, round_, options, Path(folder)))
         print(f"\n{scene}: {options.spp} samples per pixel, {options.rounds} rounds")
-        print(f"{'transmittance':26}{'free flight':20}{'lookups':>9}{'us CPU':>9}{'variance':>11}{'work':>8}{'range':>16}")
+        width = 2 + max(len(method) for variant in variants for method in variant)
+        print(f"{'transmittance':{width}}{'free flight':{width}}{'lookups':>9}{'us CPU':>9}{'variance':>11}{'work':>8}{'range':>16}")
+        summaries = {}
         for variant in variants:
-            median = {key: statistics.median(m[key] for m in found[variant]) for key in found[variant][0]}
-            ratios = [m["work"] / base["work"] for m, base in zip(found[variant], found[variants[0]]) if base["work"] > 0]
-            work = statistics.median(ratios) if ratios else float("nan")
+            rounds = found[variant]
+            average = {key: statistics.fmean(m[key] for m in rounds) for key in ("lookups", "variance")}
+            average["cpu"] = statistics.median(m["cpu"] for m in rounds)
+            average["work"] = average["variance"] * average["cpu"]
+            summaries[variant] = average
+            base = summaries[variants[0]]["work"]
+            work = average["work"] / base if base > 0 else float("nan")
+            ratios = [m["work"] / first["work"] for m, first in zip(rounds, found[variants[0]]) if first["work"] > 0]
             span = f"{min(ratios):.2f}..{max(ratios):.2f}" if ratios else ""
-            print(f"{variant[0]:26}{variant[1]:20}{median['lookups']:9.2f}{median['cpu']:9.2f}{median['variance']:11.3e}"
-                  f"{work:8.2f}{span:>16}")
-            rows.append({"scene": scene, "transmittance": variant[0], "freeflight": variant[1], **median, "ratio": work})
+            print(f"{variant[0]:{width}}{variant[1]:{width}}{average['lookups']:9.2f}{average['cpu']:9.2f}{average['variance']:11.3e}"
+                  f"{work:8.2f}{span:>16}", flush=True)
+            rows.append({"scene": scene, "transmittance": variant[0], "freeflight": variant[1], **average, "ratio": work})
     if options.csv:
         with options.csv.open("w", newline="") as out:
             writer = csv.DictWriter(out, rows[0].keys())

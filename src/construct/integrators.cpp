@@ -49,6 +49,9 @@ IntegratorPlan readVolPath(ParamReader& in) {
       std::array{MediumLightSampling::Auto, MediumLightSampling::Collision, MediumLightSampling::Equiangular,
                  MediumLightSampling::Mis}[in.findChoice("mediumlightsampling", kSamplings,
                                                          static_cast<std::size_t>(p.mediumLightSampling))];
+  constexpr std::array<std::string_view, 3> kChannels = {"auto", "shared", "split"};
+  p.channelSampling = std::array{ChannelSampling::Auto, ChannelSampling::Shared,
+                                 ChannelSampling::Split}[in.findChoice("channelsampling", kChannels, 0)];
   return {[=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
             return std::make_unique<VolPathIntegrator>(
                 scene, p, selectorFor(scene.lightsWithMedia(), scene, p), std::move(cameraMedium));

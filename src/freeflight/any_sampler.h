@@ -22,8 +22,8 @@ namespace pbrtmedia {
 ///
 /// A sampler is a small immutable value: kName, traits(), parameters() (transmittance/parameters.h), and
 ///   template <DensityLine Line, std::size_t N>
-///   FlightSample<N> operator()(const Line& line, const Channels<N>& sigmaT, Rng& rng) const;
-/// or the same with the albedo (Channels<N>) before the random numbers, if it must know it.
+///   FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const;
+/// whose weights are those of the flight times the importance of the channels.
 using AnySampler = std::variant<WeightedDeltaTracking, DeltaTracking, DecompositionTracking,
                                 SingleParticleTracking, MarchedFlight, RegularFlight>;
 
@@ -38,15 +38,14 @@ SamplerTraits traitsOf(const AnySampler& sampler);
 std::vector<ParameterDescription> parametersOf(const AnySampler& sampler);
 AssignResult setParameter(AnySampler& sampler, std::string_view name, const ParameterValue& value);
 
-/// A flight by any sampler, which is asked with the albedo if it wants it. One whose traits say needsPieces
-/// must not be asked on a line without: std::logic_error.
+/// A flight by any sampler. A channel that counts nothing is not asked for: its weight is 0. One whose traits
+/// say needsPieces must not be asked on a line without: std::logic_error.
 template <class Sampler, class Line, std::size_t N>
-FlightSample<N> fly(const Sampler& sampler, const Line& line, const Channels<N>& sigmaT,
-                    const Channels<N>& albedo, Rng& rng) {
-  if constexpr (requires { sampler(line, sigmaT, albedo, rng); }) {
-    return sampler(line, sigmaT, albedo, rng);
-  } else if constexpr (requires { sampler(line, sigmaT, rng); }) {
-    return sampler(line, sigmaT, rng);
+FlightSample<N> fly(const Sampler& sampler, const Line& line, const FlightQuery<N>& query, Rng& rng) {
+  if constexpr (requires { sampler(line, query, rng); }) {
+    FlightSample<N> flight = sampler(line, query, rng);
+    flight.weight = withoutImportance(query, flight.weight);
+    return flight;
   } else {
     throw std::logic_error("this sampler needs a line in cubic pieces");
   }

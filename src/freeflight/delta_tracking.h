@@ -7,6 +7,7 @@
 
 #include "base/rng.h"
 #include "fields/density_line.h"
+#include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 #include "freeflight/null_collisions.h"
 #include "freeflight/sampler_traits.h"
@@ -32,13 +33,13 @@ struct DeltaTracking {
   }
 
   template <DensityLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const Channels<N>& sigmaT, Rng& rng) const {
-    const double sigmaMax = maxOf(sigmaT);
-    if (!(sigmaMax > 0)) return {};
-    const Channels<N> share = sharesOf(sigmaT, sigmaMax);
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+    const double sigmaMax = maxOf(query.sigmaT);
+    if (!(sigmaMax > 0)) return {.weight = query.importance};
+    const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
     const auto rateOf = [](const SuperVoxel& bound) { return static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
-        line, sigmaT, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
+        line, query, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
           const double upper = bound.upper, u = rng.uniformDouble();
           if constexpr (N == 1 && Line::kProvenBounds) {
             if (u * upper < bound.lower) return Collision::Real;

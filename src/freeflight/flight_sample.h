@@ -13,7 +13,7 @@ struct FlightSample {
   bool collided = false;
   double s = 0;                       ///< where on the line, when collided
   Channels<N> weight = filled<N>(1);  ///< collided: sigma_t(s) T(s) / pdf(s); passed: T / Pr{pass}
-  LookupTally tally;
+  LookupTally tally = {};
 };
 
 }  // namespace pbrtmedia

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/rng.h"
+#include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 
 namespace pbrtmedia {
@@ -17,39 +18,44 @@ namespace pbrtmedia {
 template <std::size_t N>
 class InvertedDepth {
  public:
-  /// sigmaT: some channel > 0.
-  InvertedDepth(const Channels<N>& sigmaT, Rng& rng) : sigmaT_(sigmaT) {
-    const std::size_t channel = N == 1 ? 0 : rng.uniformInt(static_cast<std::uint32_t>(N));
+  /// sigmaT: some channel > 0. A channel is chosen in proportion to its importance.
+  InvertedDepth(const FlightQuery<N>& query, Rng& rng)
+      : sigmaT_(query.sigmaT), importance_(query.importance) {
+    const std::size_t channel = N == 1 ? 0 : chooseChannel(importance_, rng.uniformDouble());
     const double depth = rng.exponential();
-    column_ = sigmaT[channel] > 0 ? depth / sigmaT[channel] : std::numeric_limits<double>::infinity();
+    column_ = sigmaT_[channel] > 0 ? depth / sigmaT_[channel] : std::numeric_limits<double>::infinity();
   }
 
   /// The integral of the density at which the flight ends.
   double column() const { return column_; }
-  /// Weights of a collision behind this integral: sigma_t T over the mean of all channels' sigma_t T.
+  /// Weights of a collision behind this integral, times the importance: sigma_t T over the mean of all
+  /// channels' importance times sigma_t T.
   Channels<N> collidedAt(double column) const { return weights(column, true); }
-  /// Weights of having passed: T over the mean of all channels' T.
+  /// The same of having passed, with T instead of sigma_t T.
   Channels<N> passedAt(double column) const { return weights(column, false); }
 
  private:
   Channels<N> weights(double column, bool collided) const {
-    // Relative to the clearest channel, which keeps the sum from vanishing.
+    if constexpr (N == 1) return filled<1>(1);
+    // Relative to the clearest channel that counts, which keeps the sum from vanishing.
     double clearest = std::numeric_limits<double>::infinity();
-    for (const double sigma : sigmaT_) {
-      if (!collided || sigma > 0) clearest = std::min(clearest, sigma);
+    for (std::size_t c = 0; c < N; ++c) {
+      if (importance_[c] > 0 && (!collided || sigmaT_[c] > 0)) clearest = std::min(clearest, sigmaT_[c]);
     }
     Channels<N> weight;
     double sum = 0;
     for (std::size_t c = 0; c < N; ++c) {
-      weight[c] = std::exp(-(sigmaT_[c] - clearest) * column) * (collided ? sigmaT_[c] : 1);
-      if (collided && !(sigmaT_[c] > 0)) weight[c] = 0;
+      const double factor = importance_[c] * (collided ? sigmaT_[c] : 1);
+      // An endless way lets the clearest channel through all the same.
+      const double excess = sigmaT_[c] - clearest;
+      weight[c] = factor > 0 ? factor * (excess > 0 ? std::exp(-excess * column) : 1) : 0;
       sum += weight[c];
     }
     for (double& w : weight) w *= static_cast<double>(N) / sum;
     return weight;
   }
 
-  Channels<N> sigmaT_;
+  Channels<N> sigmaT_, importance_;
   double column_;
 };
 

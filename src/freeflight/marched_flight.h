@@ -10,6 +10,7 @@
 
 #include "base/rng.h"
 #include "fields/density_line.h"
+#include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 #include "freeflight/inverted_depth.h"
 #include "freeflight/sampler_traits.h"
@@ -50,11 +51,11 @@ struct MarchedFlight {
   }
 
   template <DensityLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const Channels<N>& sigmaT, Rng& rng) const {
-    FlightSample<N> flight;
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+    FlightSample<N> flight{.weight = query.importance};
     const double length = line.length();
-    if (!(maxOf(sigmaT) > 0) || !(length > 0)) return flight;
-    const InvertedDepth<N> inverted(sigmaT, rng);
+    if (!(maxOf(query.sigmaT) > 0) || !(length > 0)) return flight;
+    const InvertedDepth<N> inverted(query, rng);
     const double step =
         stepSize > 0 ? std::max(stepSize, length * kShortest) : length / static_cast<double>(steps);
     double column = 0;

@@ -6,6 +6,7 @@
 
 #include "base/rng.h"
 #include "fields/density_line.h"
+#include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 #include "transmittance/bounded_lookup.h"
 #include "transmittance/channel_shares.h"
@@ -19,10 +20,10 @@ enum class Collision { Null, Real, Absorbed };
 /// the largest channel's sigma_t, piecewise constant; `decide(s, bound, flight)` says what each is and
 /// updates the weights. Absorbed: the path ends there with weight 0.
 template <DensityLine Line, std::size_t N, class RateOf, class Decide>
-FlightSample<N> flyWithNullCollisions(const Line& line, const Channels<N>& sigmaT, Rng& rng,
+FlightSample<N> flyWithNullCollisions(const Line& line, const FlightQuery<N>& query, Rng& rng,
                                       const RateOf& rateOf, const Decide& decide) {
-  FlightSample<N> flight;
-  const double sigmaMax = maxOf(sigmaT);
+  FlightSample<N> flight{.weight = query.importance};
+  const double sigmaMax = maxOf(query.sigmaT);
   if (!(sigmaMax > 0)) return flight;
   double depth = rng.exponential();  // optical depth of the majorant to the next tentative collision
   line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {

@@ -8,6 +8,7 @@
 
 #include "base/rng.h"
 #include "fields/density_line.h"
+#include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 #include "freeflight/inverted_depth.h"
 #include "freeflight/sampler_traits.h"
@@ -34,10 +35,10 @@ struct RegularFlight {
   }
 
   template <PiecewiseCubicLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const Channels<N>& sigmaT, Rng& rng) const {
-    FlightSample<N> flight;
-    if (!(maxOf(sigmaT) > 0)) return flight;
-    const InvertedDepth<N> inverted(sigmaT, rng);
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+    FlightSample<N> flight{.weight = query.importance};
+    if (!(maxOf(query.sigmaT) > 0)) return flight;
+    const InvertedDepth<N> inverted(query, rng);
     double column = 0;
     line.walkPieces([&](double a, double b) {
       constexpr double kGauss = 0.57735026918962576451;  // 1/sqrt(3)

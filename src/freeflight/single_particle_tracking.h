@@ -9,6 +9,7 @@
 
 #include "base/rng.h"
 #include "fields/density_line.h"
+#include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 #include "freeflight/null_collisions.h"
 #include "freeflight/sampler_traits.h"
@@ -59,16 +60,15 @@ struct SingleParticleTracking {
   }
 
   template <DensityLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const Channels<N>& sigmaT, const Channels<N>& albedo,
-                             Rng& rng) const {
-    const double sigmaMax = maxOf(sigmaT);
-    if (!(sigmaMax > 0)) return {};
-    const Channels<N> share = sharesOf(sigmaT, sigmaMax);
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+    const double sigmaMax = maxOf(query.sigmaT);
+    if (!(sigmaMax > 0)) return {.weight = query.importance};
+    const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
     const auto rateOf = [&](const SuperVoxel& bound) {
       return boundScale * static_cast<double>(bound.upper);
     };
     return flyWithNullCollisions<Line, N>(
-        line, sigmaT, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
+        line, query, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
           const double density = lookUpAt(line, s, bound, flight), sampling = rateOf(bound);
           Channels<N>& weight = flight.weight;
           Channels<N> r;
@@ -76,7 +76,7 @@ struct SingleParticleTracking {
           for (std::size_t c = 0; c < N; ++c) {
             r[c] = share[c] * density / sampling;
             all += std::abs(weight[c]);
-            scatter += std::abs(weight[c]) * albedo[c] * r[c];
+            scatter += std::abs(weight[c]) * query.albedo[c] * r[c];
             transmit += std::abs(weight[c] * (1 - r[c]));
             ratio += std::abs(weight[c]) * r[c];
           }

@@ -7,6 +7,7 @@
 
 #include "base/rng.h"
 #include "fields/density_line.h"
+#include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 #include "freeflight/null_collisions.h"
 #include "freeflight/sampler_traits.h"
@@ -40,13 +41,13 @@ struct WeightedDeltaTracking {
   }
 
   template <DensityLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const Channels<N>& sigmaT, Rng& rng) const {
-    const double sigmaMax = maxOf(sigmaT);
-    if (!(sigmaMax > 0)) return {};
-    const Channels<N> share = sharesOf(sigmaT, sigmaMax);
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+    const double sigmaMax = maxOf(query.sigmaT);
+    if (!(sigmaMax > 0)) return {.weight = query.importance};
+    const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
     const auto rateOf = [](const SuperVoxel& bound) { return static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
-        line, sigmaT, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
+        line, query, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
           // A collision that is real for certain needs proof.
           const double upper = bound.upper, lower = Line::kProvenBounds ? bound.lower : 0.0f;
           const double u = rng.uniformDouble();

@@ -21,6 +21,15 @@ class LineWalk {
   /// `exclusions`: what the ray starts on or ends on. `scene` and `ray` are borrowed.
   LineWalk(const Scene& scene, const Ray& ray, const Exclusions& exclusions)
       : scene_(scene), ray_(ray), fixed_(exclusions), exclusions_(exclusions) {}
+  /// The rest of another walk, along the same line as it is kept elsewhere.
+  LineWalk(const LineWalk& walk, const Ray& sameRay)
+      : scene_(walk.scene_),
+        ray_(sameRay),
+        fixed_(walk.fixed_),
+        exclusions_(walk.exclusions_),
+        tMin_(walk.tMin_),
+        ended_(walk.ended_),
+        ahead_(walk.ahead_) {}
 
   /// The nearest of the hits to come, without choosing among those that coincide with it: where the stretch
   /// before them ends. What lies beyond is not looked for yet, which saves a query where the path ends on the

@@ -127,8 +127,8 @@ namespace {
 /// Independent free flights through several media. The nearest collision counts. What another medium let
 /// through up to there is told by the same flight on the shorter segment: as a flight draws its random
 /// numbers on the way (Medium::sampleFreeFlight), a replay of its numbers takes the same steps and passes.
-MediumFlight nearestOfFlights(const MediumState& state, const Ray& ray, double tMin, double tMax, Rng& rng,
-                              RenderCounters& counters) {
+MediumFlight nearestOfFlights(const MediumState& state, const Ray& ray, double tMin, double tMax,
+                              Rgb throughput, Rng& rng, RenderCounters& counters) {
   struct Flight {
     Rng start;
     Rgb passed;
@@ -142,7 +142,7 @@ MediumFlight nearestOfFlights(const MediumState& state, const Ray& ray, double t
   for (std::size_t i = 0; i < state.activeCount(); ++i) {
     const PlacedMedium m = state.active(i);
     const Rng start = rng;
-    const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), rng, counters);
+    const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), throughput, rng, counters);
     flights.push_back({start, f.weight, tMax});
     if (!f.collided) continue;
     tMax = f.t;
@@ -158,7 +158,8 @@ MediumFlight nearestOfFlights(const MediumState& state, const Ray& ray, double t
     const PlacedMedium m = state.active(i);
     if (flights[i].tEnd != tMax) {
       Rng replay = flights[i].start;
-      const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), replay, counters);
+      const FreeFlight f =
+          m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), throughput, replay, counters);
       // It may collide only by rounding at the very end; then it got there all the same.
       flights[i].passed = f.collided ? Rgb(1.0f) : f.weight;
     }
@@ -170,11 +171,11 @@ MediumFlight nearestOfFlights(const MediumState& state, const Ray& ray, double t
 }  // namespace
 
 MediumFlight MediaTracker::sampleFreeFlight(const MediumState& state, const Ray& ray, double tMin,
-                                            double tMax, Rng& rng, RenderCounters& counters) {
+                                            double tMax, Rgb throughput, Rng& rng, RenderCounters& counters) {
   if (state.isVacuum()) return {};
-  if (state.activeCount() > 1) return nearestOfFlights(state, ray, tMin, tMax, rng, counters);
+  if (state.activeCount() > 1) return nearestOfFlights(state, ray, tMin, tMax, throughput, rng, counters);
   const PlacedMedium m = state.active(0);
-  const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), rng, counters);
+  const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), throughput, rng, counters);
   return {f.collided, f.t, f.weight, f.collided ? &m.medium->phase() : nullptr};
 }
 

@@ -69,8 +69,9 @@ class MediaTracker {
                            RenderCounters& counters);
   /// The nearest of independent free flights through the active media, weighted by what the other media let
   /// through up to there.
+  /// `throughput`: of the path so far (Medium::sampleFreeFlight).
   static MediumFlight sampleFreeFlight(const MediumState& state, const Ray& ray, double tMin, double tMax,
-                                       Rng& rng, RenderCounters& counters);
+                                       Rgb throughput, Rng& rng, RenderCounters& counters);
   /// What the media scatter at `t` from `wi` toward `wo` per length: the sum of sigma_s times the phase
   /// function. `wi` away from the point, as `wo`.
   static Rgb scattering(const MediumState& state, const Ray& ray, double t, Vector3f wo, Vector3f wi,

@@ -18,12 +18,20 @@ enum class MediumLightSampling {
   Mis,          ///< both, by multiple importance sampling
 };
 
+/// How a path shares the work among channels that a medium treats differently.
+enum class ChannelSampling {
+  Auto,    ///< Shared, but Split where extinctions differ widely
+  Shared,  ///< one path for all channels, by multiple importance sampling over them
+  Split    ///< a path for each from where it first meets such a medium
+};
+
 /// Parameters that `path` and `volpath` share (scene-language reference 11.1, 11.2).
 struct PathParams {
   int maxDepth = 5;                             ///< scattering vertices of a path; 0: visible emission only
   float rrThreshold = 1;                        ///< roulette is played on throughputs below it; 0: never
   std::string lightSampleStrategy = "spatial";  ///< uniform, power or spatial; for whoever makes the selector
   MediumLightSampling mediumLightSampling = MediumLightSampling::Auto;  ///< `volpath` only
+  ChannelSampling channelSampling = ChannelSampling::Auto;              ///< `volpath` only
 };
 
 /// Integrator `path`: unidirectional path tracing over surfaces, next-event estimation and multiple

@@ -47,9 +47,20 @@ class PathTracer {
   };
   enum class Event { End, Surface, Medium };
 
+  /// A free flight between two scattering events, as far as it has come.
+  struct Travel {
+    LineWalk walk;
+    BoundaryPlane start;  ///< of the stretch at hand
+    double t = 0;
+  };
+
+  Rgb finish(Event event);
   // Each path event is one function. Those that return bool tell whether the path goes on.
   Event travel();
-  bool passMedium(double tMin, double tMax, const SceneHit* hit, const BoundaryPlane& start, Event& event);
+  Event travelOn(Travel travel);
+  bool passMedium(const Travel& travel, double tMax, const SceneHit* hit, Event& event);
+  bool splitsChannels() const;
+  void followChannels(const Travel& travel);
   Point3f mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
   void lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
   void collectMediumEmission(double tMin, double tMax);

@@ -29,4 +29,10 @@ void checkEmission(Rgb le, Rgb emission, std::string_view mediumName) {
   check(emission, "sigma_a times Le", mediumName);
 }
 
+Rgb albedoOf(Rgb sigmaS, Rgb sigmaT) {
+  Rgb albedo;
+  for (std::size_t c = 0; c < 3; ++c) albedo[c] = sigmaT[c] > 0 ? sigmaS[c] / sigmaT[c] : 0.0f;
+  return albedo;
+}
+
 }  // namespace pbrtmedia

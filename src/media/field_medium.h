@@ -20,6 +20,7 @@
 #include "media/field_emission.h"
 #include "media/field_medium_params.h"
 #include "media/medium.h"
+#include "media/rgb_channels.h"
 #include "transmittance/any_estimator.h"
 #include "transmittance/estimate_on.h"
 #include "transmittance/sample_stream.h"
@@ -50,7 +51,7 @@ class FieldMedium final : public Medium {
         emission_(params.sigmaA * params.le, params.emissionPattern, bounds_, field_.worldFromLocal()) {
     checkCoefficients(params.sigmaA, params.sigmaS, name());
     checkEmission(params.le, params.sigmaA * params.le, name());
-    for (std::size_t c = 0; c < 3; ++c) albedo_[c] = sigmaT_[c] > 0 ? params.sigmaS[c] / sigmaT_[c] : 0.0f;
+    albedo_ = albedoOf(sigmaS_, sigmaT_);
     if (!PiecewiseCubicField<Field> && (traitsOf(estimator_).needsPieces || traitsOf(sampler_).needsPieces)) {
       throw SceneError(SourceLocation{},
                        "regular tracking goes from voxel to voxel, but this density has none");
@@ -72,6 +73,7 @@ class FieldMedium final : public Medium {
 
   std::string_view typeName() const override { return typeName_; }
   const PhaseFunction& phase() const override { return *phase_; }
+  Rgb sigmaT() const override { return sigmaT_; }
 
   /// A segment with a NaN gives NaN, so that the sample is dropped and counted where such are.
   Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const override {
@@ -79,19 +81,23 @@ class FieldMedium final : public Medium {
     const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
     if (!line) return Rgb(1.0f);
     explore(*line, rng, counters);
-    return sigmaT_.isGrey()
-               ? estimate(*line, segment, Channels<1>{sigmaT_.r}, rng, counters)
-               : estimate(*line, segment, Channels<3>{sigmaT_.r, sigmaT_.g, sigmaT_.b}, rng, counters);
+    return sigmaT_.isGrey() ? estimate(*line, segment, Channels<1>{sigmaT_.r}, rng, counters)
+                            : estimate(*line, segment, channelsOf(sigmaT_), rng, counters);
   }
 
-  FreeFlight sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters& counters) const override {
+  FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
+                              RenderCounters& counters) const override {
     if (hasNaN(segment)) return {.weight = kNaN};
     const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
     if (!line) return {};
     explore(*line, rng, counters);
     FreeFlight flight =
-        sigmaT_.isGrey() ? fly(*line, segment, Channels<1>{sigmaT_.r}, rng, counters)
-                         : fly(*line, segment, Channels<3>{sigmaT_.r, sigmaT_.g, sigmaT_.b}, rng, counters);
+        sigmaT_.isGrey()
+            ? fly(*line, segment, FlightQuery<1>{{sigmaT_.r}, {albedo_.average()}}, rng, counters)
+            : fly(*line, segment,
+                  FlightQuery<3>{channelsOf(sigmaT_), channelsOf(albedo_),
+                                 importanceOf(channelsOf(throughput))},
+                  rng, counters);
     if (flight.collided) flight.t = std::clamp(flight.t, segment.tMin, segment.tMax);
     return flight;
   }
@@ -214,15 +220,6 @@ class FieldMedium final : public Medium {
   }
 
   template <std::size_t N>
-  static Rgb toRgb(const Channels<N>& c) {
-    if constexpr (N == 1) {
-      return Rgb(static_cast<float>(c[0]));
-    } else {
-      return Rgb(static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]));
-    }
-  }
-
-  template <std::size_t N>
   Rgb estimate(const FieldLine<Field>& line, const Segment& segment, const Channels<N>& sigmaT, Rng& rng,
                RenderCounters& counters) const {
     if (PixelSample& pixel = rng.pixelSample(); samplingPattern_ != PatternKind::Independent &&
@@ -268,12 +265,10 @@ class FieldMedium final : public Medium {
   }
 
   template <std::size_t N>
-  FreeFlight fly(const FieldLine<Field>& line, const Segment& segment, const Channels<N>& sigmaT, Rng& rng,
+  FreeFlight fly(const FieldLine<Field>& line, const Segment& segment, const FlightQuery<N>& query, Rng& rng,
                  RenderCounters& counters) const {
-    Channels<N> albedo;
-    for (std::size_t c = 0; c < N; ++c) albedo[c] = static_cast<double>(albedo_[c]);
-    const FlightSample<N> result = std::visit(
-        [&](const auto& sampler) { return pbrtmedia::fly(sampler, line, sigmaT, albedo, rng); }, sampler_);
+    const FlightSample<N> result =
+        std::visit([&](const auto& sampler) { return pbrtmedia::fly(sampler, line, query, rng); }, sampler_);
     count(line, segment, result.tally, counters);
     const Rgb weight = toRgb(result.weight);
     if (!result.collided) return {false, 0, weight};

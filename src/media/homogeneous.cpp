@@ -7,9 +7,11 @@
 #include <sstream>
 #include <utility>
 
+#include "freeflight/inverted_depth.h"
 #include "media/box_emission.h"
 #include "media/coefficients.h"
 #include "media/emission_distance.h"
+#include "media/rgb_channels.h"
 
 namespace pbrtmedia {
 namespace {
@@ -30,6 +32,7 @@ HomogeneousMedium::HomogeneousMedium(Params params)
       grey_(sigmaT_.isGrey()) {
   checkCoefficients(params.sigmaA, params.sigmaS, name());
   checkEmission(params.le, emission_, name());
+  albedo_ = albedoOf(sigmaS_, sigmaT_);
 }
 
 Rgb HomogeneousMedium::transmittance(const Segment& segment, Rng&, RenderCounters&) const {
@@ -40,34 +43,24 @@ Rgb HomogeneousMedium::transmittance(const Segment& segment, Rng&, RenderCounter
   return grey_ ? Rgb(through(sigmaT_.r)) : Rgb(through(sigmaT_.r), through(sigmaT_.g), through(sigmaT_.b));
 }
 
-FreeFlight HomogeneousMedium::sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters&) const {
+FreeFlight HomogeneousMedium::sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
+                                               RenderCounters&) const {
   // A medium of nothing takes no random number: its boundaries leave the image as it is, bit for bit.
   if (sigmaT_.isBlack()) return {};
-  const double length = segment.length();
-  const std::size_t channel = grey_ ? 0 : rng.uniformInt(3);
-  const double rate = sigmaT_[channel];
-  const double flight = rate > 0 ? rng.exponential() / rate : std::numeric_limits<double>::infinity();
-  const bool collided = flight < length;
-  FreeFlight result;
-  result.collided = collided;
-  result.t = collided ? segment.tMin + flight : 0;
-  if (grey_) {
-    // Transmittance and density cancel; what is left is the albedo.
-    if (collided) result.weight = sigmaS_ / sigmaT_.r;
-    return result;
-  }
-  // Numerator and mean density are divided by the transmittance of the clearest channel: never 0/0.
-  const double distance = collided ? flight : length;
-  const double clearest = opticalDepth(sigmaT_.min(), distance);
-  double numerator[3], density = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double depth = opticalDepth(sigmaT_[c], distance);
-    const double relative = depth > clearest ? std::exp(clearest - depth) : 1.0;
-    density += relative * (collided ? static_cast<double>(sigmaT_[c]) : 1.0) / 3;
-    numerator[c] = relative * (collided ? static_cast<double>(sigmaS_[c]) : 1.0);
-  }
-  for (std::size_t c = 0; c < 3; ++c) result.weight[c] = static_cast<float>(numerator[c] / density);
-  return result;
+  return grey_ ? fly(segment, FlightQuery<1>{{sigmaT_.r}}, rng)
+               : fly(segment,
+                     FlightQuery<3>{.sigmaT = channelsOf(sigmaT_),
+                                    .importance = importanceOf(channelsOf(throughput))},
+                     rng);
+}
+
+template <std::size_t N>
+FreeFlight HomogeneousMedium::fly(const Segment& segment, const FlightQuery<N>& query, Rng& rng) const {
+  const InvertedDepth<N> inverted(query, rng);
+  const double length = segment.length(), distance = inverted.column();
+  if (!(distance < length)) return {false, 0, toRgb(withoutImportance(query, inverted.passedAt(length)))};
+  return {true, segment.tMin + distance,
+          toRgb(withoutImportance(query, inverted.collidedAt(distance))) * albedo_};
 }
 
 FlightControl HomogeneousMedium::flightControl(const Segment& segment) const {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "freeflight/flight_query.h"
 #include "media/medium.h"
 #include "media/medium_params.h"
 
@@ -21,8 +22,10 @@ class HomogeneousMedium final : public Medium {
 
   std::string_view typeName() const override { return kTypeName; }
   Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
-  FreeFlight sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
+  FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
+                              RenderCounters& counters) const override;
   const PhaseFunction& phase() const override { return *phase_; }
+  Rgb sigmaT() const override { return sigmaT_; }
   MediumPoint at(Point3f, RenderCounters&) const override { return {sigmaS_, emission_}; }
   FlightControl flightControl(const Segment& segment) const override;
   bool isEmissive() const override { return !emission_.isBlack(); }
@@ -31,10 +34,12 @@ class HomogeneousMedium final : public Medium {
   std::unique_ptr<const EmissionVolume> emissionVolume(const Bounds3f& boundary) const override;
   Bounds3f bounds() const override;
   std::string describe() const override;
-  Rgb sigmaT() const { return sigmaT_; }
 
  private:
-  Rgb sigmaS_, sigmaT_, emission_;
+  template <std::size_t N>
+  FreeFlight fly(const Segment& segment, const FlightQuery<N>& query, Rng& rng) const;
+
+  Rgb sigmaS_, sigmaT_, albedo_, emission_;
   std::unique_ptr<PhaseFunction> phase_;
   bool grey_;
 };

@@ -70,8 +70,13 @@ class Medium {
   /// Samples where the next real collision lies. Random numbers are drawn on the way: with the same numbers,
   /// the flight over a shorter segment with the same start takes the same steps up to its end, and passes
   /// when the longer one collides beyond it. (Overlapping media rely on it.)
-  virtual FreeFlight sampleFreeFlight(const Segment& segment, Rng& rng, RenderCounters& counters) const = 0;
+  /// `throughput`: of the path so far, any sign. Chances are shared out among the channels as the path weighs
+  /// them, which bounds the weights of whole paths; where it is 0 a chromatic medium may return weight 0.
+  virtual FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
+                                      RenderCounters& counters) const = 0;
   virtual const PhaseFunction& phase() const = 0;
+  /// Extinction coefficient, where a density scales it that at density 1. Tells how far channels differ.
+  virtual Rgb sigmaT() const = 0;
 
   /// Coefficients at a point.
   virtual MediumPoint at(Point3f p, RenderCounters& counters) const = 0;

@@ -119,7 +119,7 @@ inline Numbers media(const Attempt& a) {
     RenderCounters counters;
     const Segment s{Point3f(-3, 0.3f, z), Vector3f(1, 0.05f, 0), 0, 6};
     append(n, medium->transmittance(s, rng, counters));
-    const FreeFlight flight = medium->sampleFreeFlight(s, rng, counters);
+    const FreeFlight flight = medium->sampleFreeFlight(s, Rgb(1), rng, counters);
     n.push_back(flight.collided ? flight.t : -1);
     append(n, flight.weight);
   }

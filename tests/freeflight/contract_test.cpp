@@ -23,8 +23,11 @@ constexpr std::uint64_t kSeed = 20241125;
 template <std::size_t N>
 FlightSample<N> run(const AnySampler& sampler, const ContractLine& line, const Channels<N>& sigmaT, Rng& rng,
                     double albedo = .8) {
-  return std::visit([&](const auto& held) { return fly(held, line, sigmaT, filled<N>(albedo), rng); },
-                    sampler);
+  return std::visit(
+      [&](const auto& held) {
+        return fly(held, line, FlightQuery<N>{sigmaT, filled<N>(albedo)}, rng);
+      },
+      sampler);
 }
 
 /// Every model, as far as a parameter chooses one.

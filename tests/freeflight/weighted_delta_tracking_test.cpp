@@ -39,7 +39,7 @@ TEST(WeightedDeltaTracking, DrawsDistancesFromTheExactDistribution) {
       constexpr double kN = 200000;
       double passed = 0;
       for (double n = 0; n < kN; ++n) {
-        const auto flight = WeightedDeltaTracking()(line, Channels<1>{sigma}, rng);
+        const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{sigma}}, rng);
         ASSERT_EQ(flight.weight[0], 1.0);
         passed += flight.collided ? 0 : 1;
         if (flight.collided) distances.push_back(flight.s);
@@ -68,7 +68,7 @@ TEST(WeightedDeltaTracking, AsksForNoDensityWhereLowerAndUpperBoundAgree) {
   Rng rng(kSeed);
   std::vector<double> distances;
   for (int n = 0; n < 50000; ++n) {
-    const auto flight = WeightedDeltaTracking()(line, Channels<1>{3}, rng);
+    const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{3}}, rng);
     ASSERT_EQ(flight.tally.lookups, 0u);
     ASSERT_EQ(flight.tally.nullCollisions, 0u);
     if (flight.collided) distances.push_back(flight.s);
@@ -86,7 +86,10 @@ TEST(WeightedDeltaTracking, DoesNotTrustALowerBoundThatNobodyProved) {
     RunningStats passed;
     for (int n = 0; n < 100000; ++n) {
       const auto flight = std::visit(
-          [&](const auto& held) { return fly(held, line, Channels<1>{1}, Channels<1>{.5}, rng); }, sampler);
+          [&](const auto& held) {
+            return fly(held, line, FlightQuery<1>{{1}, {.5}}, rng);
+          },
+          sampler);
       passed.add(flight.collided ? 0 : flight.weight[0]);
     }
     const auto test = zTest(passed, std::exp(-1.0), kSeed);
@@ -97,8 +100,8 @@ TEST(WeightedDeltaTracking, DoesNotTrustALowerBoundThatNobodyProved) {
 TEST(WeightedDeltaTracking, PassesVacuumAndClearMedia) {
   const FunctionLine vacuum{[](double) { return 0.0; }, {{1, {0, 0}}}};
   Rng rng(1);
-  EXPECT_FALSE(WeightedDeltaTracking()(vacuum, Channels<1>{5}, rng).collided);
-  const auto clear = WeightedDeltaTracking()(ramp(true), Channels<3>{0, 0, 0}, rng);
+  EXPECT_FALSE(WeightedDeltaTracking()(vacuum, FlightQuery<1>{{5}}, rng).collided);
+  const auto clear = WeightedDeltaTracking()(ramp(true), FlightQuery<3>{{0, 0, 0}}, rng);
   EXPECT_FALSE(clear.collided);
   EXPECT_EQ(clear.weight, filled<3>(1));
   EXPECT_EQ(clear.tally.lookups, 0u);
@@ -109,9 +112,9 @@ TEST(WeightedDeltaTracking, NeverChoosesAnEventOfProbabilityZero) {
   const FunctionLine everything{[](double) { return 1.0; }, {{1, {1, 0}}}};
   Rng rng(kSeed);
   for (int n = 0; n < 200000; ++n) {
-    ASSERT_FALSE(WeightedDeltaTracking()(nothing, Channels<1>{3}, rng).collided);
-    ASSERT_EQ(WeightedDeltaTracking()(everything, Channels<1>{3}, rng).tally.nullCollisions, 0u);
-    const auto passed = WeightedDeltaTracking()(nothing, Channels<3>{0, 1, 3}, rng);
+    ASSERT_FALSE(WeightedDeltaTracking()(nothing, FlightQuery<1>{{3}}, rng).collided);
+    ASSERT_EQ(WeightedDeltaTracking()(everything, FlightQuery<1>{{3}}, rng).tally.nullCollisions, 0u);
+    const auto passed = WeightedDeltaTracking()(nothing, FlightQuery<3>{{0, 1, 3}}, rng);
     ASSERT_FALSE(passed.collided);
     for (const double w : passed.weight) ASSERT_NEAR(w, 1, 1e-9);
   }
@@ -123,7 +126,7 @@ TEST(WeightedDeltaTracking, StaysRightInVeryDenseMedia) {
     Rng rng(kSeed);
     std::vector<double> depths;
     for (int n = 0; n < 20000; ++n) {
-      const auto flight = WeightedDeltaTracking()(line, Channels<1>{sigma}, rng);
+      const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{sigma}}, rng);
       ASSERT_TRUE(flight.collided);
       depths.push_back(sigma * flight.s);
     }
@@ -138,7 +141,7 @@ TEST(WeightedDeltaTracking, FindsTheRareCollisionsOfThinMedia) {
   Rng rng(kSeed);
   double collisions = 0;
   for (double n = 0; n < kN; ++n)
-    collisions += WeightedDeltaTracking()(line, Channels<1>{kTau}, rng).collided ? 1 : 0;
+    collisions += WeightedDeltaTracking()(line, FlightQuery<1>{{kTau}}, rng).collided ? 1 : 0;
   EXPECT_LT(std::abs(collisions - kN * kTau) / std::sqrt(kN * kTau), kMaxAbsZ) << collisions;
 }
 
@@ -147,7 +150,7 @@ void checkWeights(const FunctionLine& line, const Channels<3>& sigma, double lar
   Rng rng(kSeed);
   RunningStats passed[3], collided[3], place[3];
   for (int n = 0; n < 400000; ++n) {
-    const auto flight = WeightedDeltaTracking()(line, sigma, rng);
+    const auto flight = WeightedDeltaTracking()(line, FlightQuery<3>{sigma}, rng);
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       const double w = flight.weight[c];
@@ -187,7 +190,7 @@ TEST(WeightedDeltaTracking, StaysUnbiasedAndCountsWhereABoundIsViolated) {
   RunningStats passed, collided;
   LookupTally worst;
   for (int n = 0; n < 400000; ++n) {
-    const auto flight = WeightedDeltaTracking()(line, Channels<1>{2}, rng);
+    const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{2}}, rng);
     ASSERT_TRUE(std::isfinite(flight.weight[0]));
     passed.add(flight.collided ? 0 : flight.weight[0]);
     collided.add(flight.collided ? flight.weight[0] : 0);
@@ -205,7 +208,7 @@ TEST(WeightedDeltaTracking, StaysUnbiasedAndCountsWhereABoundIsViolated) {
 TEST(WeightedDeltaTracking, CountsDensityUnderABoundOfZeroAndEnds) {
   const FunctionLine line{[](double) { return 3.0; }, {{1, {0, 0}}}};
   Rng rng(1);
-  const auto flight = WeightedDeltaTracking()(line, Channels<1>{1}, rng);
+  const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{1}}, rng);
   EXPECT_FALSE(flight.collided);
   EXPECT_EQ(flight.tally.violations, 1u);
   EXPECT_EQ(flight.tally.worstRatio, std::numeric_limits<double>::infinity());

@@ -42,9 +42,11 @@ class WatchedMedium final : public Medium {
     watch(s);
     return fog_.transmittance(s, rng, counters);
   }
-  FreeFlight sampleFreeFlight(const Segment& s, Rng& rng, RenderCounters& counters) const override {
+  Rgb sigmaT() const override { return fog_.sigmaT(); }
+  FreeFlight sampleFreeFlight(const Segment& s, Rgb throughput, Rng& rng,
+                              RenderCounters& counters) const override {
     watch(s);
-    return fog_.sampleFreeFlight(s, rng, counters);
+    return fog_.sampleFreeFlight(s, throughput, rng, counters);
   }
   const PhaseFunction& phase() const override { return fog_.phase(); }
   MediumPoint at(Point3f p, RenderCounters& counters) const override { return fog_.at(p, counters); }

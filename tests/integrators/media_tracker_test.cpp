@@ -217,7 +217,7 @@ void expectFlightsOfSum(const Medium& a, const Medium& b, Rgb sigmaT, Rgb sigmaS
   Rng rng(seed);
   RenderCounters counters;
   for (int i = 0; i < kFlights; ++i) {
-    const MediumFlight f = MediaTracker::sampleFreeFlight(state, ray, 0, 1, rng, counters);
+    const MediumFlight f = MediaTracker::sampleFreeFlight(state, ray, 0, 1, Rgb(1), rng, counters);
     const int bin = f.collided ? std::min(static_cast<int>(f.t * kBins), kBins - 1) : kBins;
     for (int k = 0; k <= kBins; ++k) {
       for (std::size_t c = 0; c < 3; ++c)

@@ -33,7 +33,7 @@ std::uint64_t lookups(const Medium& medium, int rays, std::uint64_t seed) {
   for (int i = 0; i < rays; ++i) {
     const Segment segment = randomSegment(lines, 2);
     medium.transmittance(segment, rng, counters);
-    medium.sampleFreeFlight(segment, rng, counters);
+    medium.sampleFreeFlight(segment, Rgb(1), rng, counters);
   }
   return counters.densityLookups;
 }
@@ -62,7 +62,7 @@ TEST(OneHotVoxel, CostsNothingWhereRaysMissIt) {
     const bool meets = passes(segment, Point3f(where, where, where), reach);
     misses += !meets;
     medium->transmittance(segment, rng, meets ? met : missed);
-    medium->sampleFreeFlight(segment, rng, meets ? met : missed);
+    medium->sampleFreeFlight(segment, Rgb(1), rng, meets ? met : missed);
   }
   EXPECT_GT(misses, 15000);
   EXPECT_EQ(missed.densityLookups, 0u) << "an empty grid needs none";

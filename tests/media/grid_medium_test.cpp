@@ -76,7 +76,7 @@ TEST(GridMedium, OfConstantDensityIsTheHomogeneousMedium) {
       RenderCounters counters;
       std::vector<double> depths;
       for (int n = 0; n < 20000; ++n) {
-        const FreeFlight flight = medium->sampleFreeFlight(kAxis, rng, counters);
+        const FreeFlight flight = medium->sampleFreeFlight(kAxis, Rgb(1), rng, counters);
         ASSERT_EQ(flight.weight, Rgb(flight.collided ? .25f : 1.0f));
         if (flight.collided) depths.push_back((flight.t - 1) * sigmaT);
       }
@@ -100,7 +100,7 @@ TEST(GridMedium, FadesAtTheBorderByPbrtsRule) {
     EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << n << ": " << test;
     RunningStats passed;
     for (int i = 0; i < 200000; ++i)
-      passed.add(ratio->sampleFreeFlight(kAxis, rng, counters).collided ? 0 : 1);
+      passed.add(ratio->sampleFreeFlight(kAxis, Rgb(1), rng, counters).collided ? 0 : 1);
     const auto through = zTest(passed, std::exp(-tau), kSeed);
     EXPECT_LT(std::abs(through.z()), kMaxAbsZ) << n << ": " << through;
   }
@@ -122,7 +122,7 @@ TEST(GridMedium, MeansAgreeWithTheExactColumnOnRandomRays) {
     RunningStats transmitted, passed;
     for (int n = 0; n < 20000; ++n) {
       transmitted.add(ratio->transmittance(segment, rng, counters).r);
-      passed.add(ratio->sampleFreeFlight(segment, rng, counters).collided ? 0 : 1);
+      passed.add(ratio->sampleFreeFlight(segment, Rgb(1), rng, counters).collided ? 0 : 1);
     }
     for (const auto& test : {zTest(transmitted, truth, kSeed), zTest(passed, truth, kSeed)}) {
       EXPECT_TRUE(std::abs(test.z()) < kMaxAbsZ || std::abs(test.mean - truth) < 1e-6) << test;
@@ -142,7 +142,7 @@ TEST(GridMedium, IsExactPerChannelWhenChromatic) {
   RunningStats transmitted[3], passed[3], scattered[3];
   for (int n = 0; n < 200000; ++n) {
     const Rgb t = medium->transmittance(kAxis, rng, counters);
-    const FreeFlight flight = medium->sampleFreeFlight(kAxis, rng, counters);
+    const FreeFlight flight = medium->sampleFreeFlight(kAxis, Rgb(1), rng, counters);
     for (std::size_t c = 0; c < 3; ++c) {
       transmitted[c].add(t[c]);
       passed[c].add(flight.collided ? 0 : flight.weight[c]);
@@ -165,7 +165,7 @@ TEST(GridMedium, IsClearWhereEverySampleIsZero) {
   Rng rng(1);
   RenderCounters counters;
   EXPECT_EQ(medium->transmittance(kAxis, rng, counters), Rgb(1));
-  EXPECT_FALSE(medium->sampleFreeFlight(kAxis, rng, counters).collided);
+  EXPECT_FALSE(medium->sampleFreeFlight(kAxis, Rgb(1), rng, counters).collided);
   EXPECT_EQ(counters.densityLookups, 0u);
 }
 
@@ -199,7 +199,7 @@ TEST(GridMedium, IsDefinedOnDegenerateSegments) {
   RenderCounters counters;
   const auto clear = [&](const Segment& s) {
     EXPECT_EQ(medium->transmittance(s, rng, counters), Rgb(1));
-    const FreeFlight flight = medium->sampleFreeFlight(s, rng, counters);
+    const FreeFlight flight = medium->sampleFreeFlight(s, Rgb(1), rng, counters);
     EXPECT_FALSE(flight.collided);
     EXPECT_EQ(flight.weight, Rgb(1));
   };
@@ -211,7 +211,7 @@ TEST(GridMedium, IsDefinedOnDegenerateSegments) {
   for (const Segment& s : {Segment{{nan, 0, 0}, {1, 0, 0}, 0, 1}, Segment{{0, 0, 0}, {1, nan, 0}, 0, 1},
                            Segment{{0, 0, 0}, {1, 0, 0}, nan, 1}}) {
     EXPECT_TRUE(std::isnan(medium->transmittance(s, rng, counters).r));
-    EXPECT_TRUE(std::isnan(medium->sampleFreeFlight(s, rng, counters).weight.r));
+    EXPECT_TRUE(std::isnan(medium->sampleFreeFlight(s, Rgb(1), rng, counters).weight.r));
   }
 }
 
@@ -224,7 +224,7 @@ TEST(GridMedium, CollidesInsideTheSegment) {
     Segment segment = randomSegment(rng, 2);
     segment.tMin = 2 * rng.uniformDouble();
     segment.tMax = segment.tMin + rng.uniformDouble();
-    const FreeFlight flight = medium->sampleFreeFlight(segment, rng, counters);
+    const FreeFlight flight = medium->sampleFreeFlight(segment, Rgb(1), rng, counters);
     if (!flight.collided) continue;
     ++collisions;
     ASSERT_TRUE(flight.t >= segment.tMin && flight.t <= segment.tMax);

@@ -47,8 +47,8 @@ TEST(HomogeneousMedium, EndsAtInfinityUnlessAChannelIsClear) {
   EXPECT_EQ(medium(Rgb(1), Rgb(0)).transmittance(forever, rng, counters), Rgb(0));
   EXPECT_EQ(medium(Rgb(0), Rgb(0, 1, 2)).transmittance(forever, rng, counters), Rgb(1, 0, 0));
   for (int n = 0; n < 1000; ++n) {
-    EXPECT_TRUE(medium(Rgb(1), Rgb(1)).sampleFreeFlight(forever, rng, counters).collided);
-    const FreeFlight flight = medium(Rgb(0), Rgb(0, 1, 2)).sampleFreeFlight(forever, rng, counters);
+    EXPECT_TRUE(medium(Rgb(1), Rgb(1)).sampleFreeFlight(forever, Rgb(1), rng, counters).collided);
+    const FreeFlight flight = medium(Rgb(0), Rgb(0, 1, 2)).sampleFreeFlight(forever, Rgb(1), rng, counters);
     EXPECT_TRUE(flight.weight.isFinite()) << flight.weight;
     if (!flight.collided) {
       EXPECT_EQ(flight.weight, Rgb(3, 0, 0));
@@ -63,7 +63,7 @@ TEST(HomogeneousMedium, FliesGreyWithTheAlbedoAsWeight) {
   std::vector<double> depths;
   RunningStats passed;
   for (int n = 0; n < 100000; ++n) {
-    const FreeFlight flight = fog.sampleFreeFlight(ofLength(1), rng, counters);
+    const FreeFlight flight = fog.sampleFreeFlight(ofLength(1), Rgb(1), rng, counters);
     passed.add(flight.collided ? 0 : 1);
     EXPECT_EQ(flight.weight, Rgb(flight.collided ? .25f : 1.0f));
     if (flight.collided) depths.push_back(flight.t - .5);
@@ -82,7 +82,7 @@ TEST(HomogeneousMedium, WeighsEveryChannelRight) {
     RenderCounters counters;
     RunningStats passed[3], scattered[3], place[3];
     for (int n = 0; n < 300000; ++n) {
-      const FreeFlight flight = fog.sampleFreeFlight(ofLength(length), rng, counters);
+      const FreeFlight flight = fog.sampleFreeFlight(ofLength(length), Rgb(1), rng, counters);
       for (std::size_t c = 0; c < 3; ++c) {
         const double w = flight.weight[c];
         ASSERT_TRUE(w >= 0 && w <= 3.001);
@@ -112,7 +112,7 @@ TEST(HomogeneousMedium, ScattersOnceMoreInAFurnaceOfAnyDepth) {
     RunningStats sum[3];
     for (int n = 0; n < 100000; ++n) {
       const FreeFlight flight =
-          medium(Rgb(0), Rgb(1, 2, 4)).sampleFreeFlight(ofLength(length), rng, counters);
+          medium(Rgb(0), Rgb(1, 2, 4)).sampleFreeFlight(ofLength(length), Rgb(1), rng, counters);
       ASSERT_TRUE(flight.weight.isFinite());
       for (std::size_t c = 0; c < 3; ++c) sum[c].add(flight.weight[c]);
     }
@@ -127,11 +127,11 @@ TEST(HomogeneousMedium, ScattersOnceMoreInAFurnaceOfAnyDepth) {
 TEST(HomogeneousMedium, PassesWhereItIsClearAndWhereNothingIsLeft) {
   Rng rng(1);
   RenderCounters counters;
-  const FreeFlight clear = medium(Rgb(0), Rgb(0)).sampleFreeFlight(ofLength(1e30), rng, counters);
+  const FreeFlight clear = medium(Rgb(0), Rgb(0)).sampleFreeFlight(ofLength(1e30), Rgb(1), rng, counters);
   EXPECT_FALSE(clear.collided);
   EXPECT_EQ(clear.weight, Rgb(1));
   for (int n = 0; n < 1000; ++n) {
-    EXPECT_FALSE(medium(Rgb(1), Rgb(1, 2, 3)).sampleFreeFlight(ofLength(0), rng, counters).collided);
+    EXPECT_FALSE(medium(Rgb(1), Rgb(1, 2, 3)).sampleFreeFlight(ofLength(0), Rgb(1), rng, counters).collided);
   }
 }
 

@@ -101,7 +101,7 @@ TEST(NanoVdbMedium, FreeFlightsAndRatioTrackingAgreeWithRegularTracking) {
   test::RunningStats transmittance, passed;
   for (int n = 0; n < 100000; ++n) {
     transmittance.add(ratio->transmittance(s, rng, counters).r);
-    const FreeFlight flight = ratio->sampleFreeFlight(s, rng, counters);
+    const FreeFlight flight = ratio->sampleFreeFlight(s, Rgb(1), rng, counters);
     passed.add(flight.collided ? 0 : flight.weight.r);
   }
   EXPECT_EQ(counters.boundViolations, 0u);

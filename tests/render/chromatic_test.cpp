@@ -16,8 +16,8 @@ constexpr int kResolution = 3;
 constexpr std::int64_t kSamples = 4000;  ///< per pixel
 
 /// A scattering cube in a dim environment beside a point light, seen at an angle.
-std::string scene(const std::array<double, 3>& sigma, const std::string& density,
-                  const std::string& sampler) {
+std::string scene(const std::array<double, 3>& sigma, const std::string& density, const std::string& sampler,
+                  const std::string& channelSampling = "auto") {
   std::ostringstream os;
   const auto times = [&](double factor) {
     os << "[ " << factor * sigma[0] << ' ' << factor * sigma[1] << ' ' << factor * sigma[2] << " ] ";
@@ -25,7 +25,8 @@ std::string scene(const std::array<double, 3>& sigma, const std::string& density
   os << "Film \"image\" \"integer xresolution\" " << kResolution << " \"integer yresolution\" " << kResolution
      << R"( "string filename" "unused.exr"
 Sampler "random" "integer pixelsamples" 16
-Integrator "volpath" "integer maxdepth" 6
+Integrator "volpath" "integer maxdepth" 6 "string channelsampling" ")"
+     << channelSampling << R"("
 LookAt 2 1.5 -4  0 0 0  0 1 0
 Camera "perspective" "float fov" 16
 WorldBegin
@@ -68,21 +69,38 @@ class Chromatic : public testing::TestWithParam<std::pair<const char*, std::stri
 TEST_P(Chromatic, EachChannelHasTheMeanOfARenderOfItsOwn) {
   const std::string sampler = GetParam().first;
   const std::string& density = GetParam().second;
-  const std::array<RunningStats, 3> all = render(scene(kSigma, density, sampler), 1);
+  const std::array<RunningStats, 3> shared = render(scene(kSigma, density, sampler, "shared"), 1);
+  const std::array<RunningStats, 3> automatic = render(scene(kSigma, density, sampler), 2);
   for (std::size_t c = 0; c < 3; ++c) {
     const std::array<RunningStats, 3> alone =
-        render(scene({kSigma[c], kSigma[c], kSigma[c]}, density, sampler), 2 + c);
-    const ZTest test = zTest(all[c], alone[c]);
-    EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << "channel " << c << ": " << test;
+        render(scene({kSigma[c], kSigma[c], kSigma[c]}, density, sampler), 3 + c);
+    for (const RunningStats& all : {shared[c], automatic[c]}) {
+      const ZTest test = zTest(all, alone[c]);
+      EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << "channel " << c << ": " << test;
+    }
+    // Channels this far apart are followed one by one. A path that they share is not as good.
+    EXPECT_LE(automatic[c].variance(), 2 * alone[c].variance()) << "channel " << c;
+    if (c > 0) {
+      EXPECT_GT(shared[c].variance(), 2 * alone[c].variance()) << "channel " << c;
+    }
   }
 }
 
 TEST_P(Chromatic, SeesAnotherChannelsMean) {
   const std::string sampler = GetParam().first;
   const std::string& density = GetParam().second;
-  const std::array<RunningStats, 3> all = render(scene(kSigma, density, sampler), 1);
-  const std::array<RunningStats, 3> other = render(scene({2, 2, 2}, density, sampler), 5);
+  const std::array<RunningStats, 3> all = render(scene(kSigma, density, sampler), 2);
+  const std::array<RunningStats, 3> other = render(scene({2, 2, 2}, density, sampler), 6);
   EXPECT_GT(std::abs(zTest(all[1], other[1]).z()), kMaxAbsZ);
+}
+
+TEST(ChromaticPaths, ShareOneWhereChannelsAreNear) {
+  // With nothing to split, the path takes the same steps.
+  const auto rendered = [](const char* sampling, double factor) {
+    return render(scene({1, 1.2, factor}, kHomogeneous, "", sampling), 1);
+  };
+  EXPECT_EQ(rendered("auto", 2)[1].mean(), rendered("shared", 2)[1].mean());
+  EXPECT_NE(rendered("auto", 9)[1].mean(), rendered("shared", 9)[1].mean());
 }
 
 INSTANTIATE_TEST_SUITE_P(Samplers, Chromatic,

@@ -217,7 +217,7 @@ TEST(Violations, OfAConstantBoundLeaveTheMeanAsItIs) {
   RunningStats estimates, flights;
   for (int n = 0; n < 100000; ++n) {
     estimates.add(static_cast<double>(m.transmittance(through, rng, counters).r));
-    const FreeFlight flight = m.sampleFreeFlight(through, rng, counters);
+    const FreeFlight flight = m.sampleFreeFlight(through, Rgb(1), rng, counters);
     flights.add(flight.collided ? 0 : static_cast<double>(flight.weight.r));
   }
   EXPECT_GT(counters.boundViolations, 1000u);
