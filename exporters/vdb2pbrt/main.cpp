@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "base/diagnostics.h"
+#include "tools/run_tool.h"
 #include "vdb2pbrt/conversion.h"
 #include "vdb2pbrt/frame_names.h"
 
@@ -103,12 +103,6 @@ void checkArguments(Arguments& a) {
   }
 }
 
-std::string readable(const std::exception& e) {
-  const auto* located = dynamic_cast<const SceneError*>(&e);
-  const std::string place = located != nullptr ? located->location().toString() : "";
-  return place.empty() ? e.what() : place + ": " + e.what();
-}
-
 int convertFrames(const Arguments& a, const Notice& notice) {
   if (!hasFramePlace(a.input)) {
     if (!a.frames.empty()) throw std::runtime_error("--frames needs %d or %04d in the name of the input");
@@ -166,18 +160,8 @@ int run(Arguments& a) {
 }  // namespace pbrtmedia
 
 int main(int argc, char** argv) {
-  CLI::App app("Converts OpenVDB volumes for pbrt-media");
+  CLI::App app("Converts OpenVDB volumes for pbrt-media", "vdb2pbrt");
   pbrtmedia::Arguments arguments;
   pbrtmedia::addOptions(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 1;
-  }
-  try {
-    return pbrtmedia::run(arguments);
-  } catch (const std::exception& e) {
-    std::cerr << "vdb2pbrt: error: " << pbrtmedia::readable(e) << '\n';
-    return 1;
-  }
+  return pbrtmedia::runTool(app, argc, argv, [&] { return pbrtmedia::run(arguments); });
 }

@@ -58,7 +58,7 @@ int printScenes(const Options& options) {
   printFiles(options.scenes, std::cout, diagnostics, print);
   std::cout.flush();
   show(diagnostics, options.quiet);
-  return diagnostics.hasErrors() || !std::cout ? kExitBadInput : 0;
+  return diagnostics.hasErrors() ? kExitBadInput : 0;
 }
 
 /// Samples per pixel that the image holds: a mean when it was stopped early.

@@ -389,6 +389,15 @@ TEST_F(Pbrt, CatPrintsASceneThatParsesToTheSameImage) {
   EXPECT_EQ(readImage(folder_.path() / "one.exr").data(), readImage(folder_.path() / "two.exr").data());
 }
 
+TEST_F(Pbrt, CatSaysWhenItCannotWrite) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  folder_.write("a.pbrt", kScene);
+  const ProcessResult full =
+      pbrt("--cat a.pbrt > /dev/full 2> said.txt; status=$?; cat said.txt; exit $status");
+  EXPECT_EQ(full.status, 1);
+  EXPECT_NE(full.output.find("error: cannot write to standard output"), std::string::npos) << full.output;
+}
+
 TEST_F(Pbrt, RendersEveryWorldOfAFile) {
   folder_.write(
       "two.pbrt",
