@@ -43,6 +43,9 @@ class UnprovenField {
     for (std::size_t i = 0; i < s.size(); ++i) out[i] = learned_->bounded(line.o + s[i] * line.d, out[i]);
   }
 
+  /// The field's own density, not cut; nothing is learned of it.
+  float uncutDensity(Vec3d p) const { return field_.density(p); }
+
   decltype(auto) localFromWorld() const { return field_.localFromWorld(); }
   decltype(auto) worldFromLocal() const { return field_.worldFromLocal(); }
   const SuperVoxels& inForce() const { return learned_ ? learned_->inForce() : *given_; }

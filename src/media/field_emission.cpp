@@ -2,18 +2,14 @@
 #include "media/field_emission.h"
 
 #include <sstream>
-#include <utility>
 
 #include "media/cell_emission.h"
 
 namespace pbrtmedia {
 
-FieldEmission::FieldEmission(Rgb emission, std::shared_ptr<const EmissionPattern> pattern,
-                             const SuperVoxels& bounds, const Transform& worldFromLocal)
-    : emission_(emission), pattern_(std::move(pattern)) {
-  if (!isEmissive() || !pattern_) return;
+SuperVoxels FieldEmission::patterned(const SuperVoxels& bounds, const Transform& worldFromLocal) const {
   const SuperVoxelLattice& lattice = bounds.lattice();
-  cells_.emplace(lattice, [&](std::int64_t i, std::int64_t j, std::int64_t k) -> SuperVoxel {
+  return SuperVoxels(lattice, [&](std::int64_t i, std::int64_t j, std::int64_t k) -> SuperVoxel {
     const SuperVoxel bound = bounds.at(i, j, k);
     if (!(bound.upper > 0)) return {0, 0, 0};
     const Vec3d size = lattice.cellSize;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/transform.h"
 #include "fields/super_voxels.h"
@@ -10,18 +11,27 @@
 #include "media/emission_distance.h"
 #include "media/emission_pattern.h"
 #include "media/emission_volume.h"
+#include "media/probed_density.h"
 
 namespace pbrtmedia {
 
 /// What a medium with a density field emits: the density times sigma_a Le, times a pattern if it has one.
-/// Where to look for it is told by super-voxels: those of the density, or, with a pattern, a copy that knows
-/// the pattern's bounds too.
+/// Where to look for it is told by super-voxels: those of the density, or, where these do not come from data
+/// or there is a pattern, others that know better.
 class FieldEmission {
  public:
   FieldEmission() = default;  ///< nothing
-  /// `emission`: sigma_a Le at density 1. `pattern` may be null. `bounds`: of the density.
-  FieldEmission(Rgb emission, std::shared_ptr<const EmissionPattern> pattern, const SuperVoxels& bounds,
-                const Transform& worldFromLocal);
+  /// `emission`: sigma_a Le at density 1. `pattern` may be null. `bounds`: of the field's density.
+  template <class Field>
+  FieldEmission(Rgb emission, std::shared_ptr<const EmissionPattern> pattern, const Field& field,
+                const SuperVoxels& bounds)
+      : emission_(emission), pattern_(std::move(pattern)) {
+    if (!isEmissive()) return;
+    if constexpr (!Field::kProvenBounds) {
+      cells_ = probedDensity(bounds.lattice(), [&](Vec3d p) { return field.uncutDensity(p); });
+    }
+    if (pattern_) cells_ = patterned(cells_ ? *cells_ : bounds, field.worldFromLocal());
+  }
 
   bool isEmissive() const { return !emission_.isBlack(); }
   /// sigma_a Le at a point of world space where the density is known.
@@ -57,7 +67,9 @@ class FieldEmission {
  private:
   Rgb emission_;
   std::shared_ptr<const EmissionPattern> pattern_;
-  /// upper: strength; mean: control of the density. Only with a pattern.
+  SuperVoxels patterned(const SuperVoxels& bounds, const Transform& worldFromLocal) const;
+
+  /// upper: strength; mean: control of the density.
   std::optional<SuperVoxels> cells_;
 };
 

@@ -48,7 +48,7 @@ class FieldMedium final : public Medium {
         samplingPattern_(params.pattern),
         phase_(makePhaseFunction(params.phase)),
         sigmaS_(params.sigmaS),
-        emission_(params.sigmaA * params.le, params.emissionPattern, bounds_, field_.worldFromLocal()) {
+        emission_(params.sigmaA * params.le, params.emissionPattern, field_, bounds_) {
     checkCoefficients(params.sigmaA, params.sigmaS, name());
     checkEmission(params.le, params.sigmaA * params.le, name());
     albedo_ = albedoOf(sigmaS_, sigmaT_);
