@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include <ImfChannelList.h>
+#include <ImfFloatVectorAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfOutputFile.h>
+#include <ImfPreviewImageAttribute.h>
 #include <ImfRgbaFile.h>
+#include <ImfStringVectorAttribute.h>
 #include <ImfTiledRgbaFile.h>
 #include <gtest/gtest.h>
 
@@ -197,6 +200,90 @@ TEST(Exr, RefusesAttributesWhoseSizeDoesNotFitTheirType) {
       setWord(changed, value - 4, size, 4, false);
       expectRefused(ImageFormat::Exr, changed, "header");
     }
+  }
+}
+
+/// An attribute put before all others; the image behind the header can no longer be found.
+std::string withAttribute(std::string bytes, const std::string& type, const std::string& value) {
+  using namespace std::string_literals;
+  std::string attribute = "extra\0"s + type + "\0"s + std::string(4, '\0') + value;
+  setWord(attribute, 6 + type.size() + 1, static_cast<unsigned>(value.size()), 4, false);
+  return bytes.insert(8, attribute);
+}
+
+TEST(Exr, RefusesVariableAttributesThatDoNotFillTheirSize) {
+  using namespace std::string_literals;
+  const std::string bytes = encodeExr(patternImage(3, 2), {});
+  const std::string wrong = "whose size does not fit its type";
+  for (const auto& [type, value] : {std::pair{"stringvector"s, "\5\0\0\0abc"s},
+                                    {"floatvector"s, "abc"s},
+                                    {"preview"s, "\2\0\0\0\1\0\0\0abcd"s},
+                                    {"preview"s, "\0\0\1\0\0\0\1\0"s},
+                                    {"chlist"s, "R\0abcdefgh"s}}) {
+    SCOPED_TRACE(type);
+    expectRefused(ImageFormat::Exr, withAttribute(bytes, type, value), wrong);
+  }
+  expectRefused(ImageFormat::Exr, withAttribute(bytes, "idmanifest", "abcdefgh"),
+                "attributes of type \"idmanifest\" are not supported");
+}
+
+TEST(Exr, ReadsPastAttributesOfVariableSize) {
+  ExrMemoryOutput stream;
+  const std::vector<Imf::Rgba> pixels(4, Imf::Rgba(0.5f, 0.25f, 0.125f, 1));
+  {
+    Imf::Header header(2, 2);
+    header.insert("words", Imf::StringVectorAttribute({"one", "", "three"}));
+    header.insert("numbers", Imf::FloatVectorAttribute({1, 2, 3}));
+    header.insert("preview", Imf::PreviewImageAttribute(Imf::PreviewImage(3, 2)));
+    Imf::RgbaOutputFile file(stream, header, Imf::WRITE_RGB);
+    file.setFrameBuffer(pixels.data(), 1, 2);
+    file.writePixels(2);
+  }
+  EXPECT_EQ(decodeExr(asBytes(stream.take()), "a.exr").rgb(1, 1), Rgb(0.5f, 0.25f, 0.125f));
+}
+
+TEST(Exr, ReadsEveryCompressionOfOthers) {
+  for (const Imf::Compression compression :
+       {Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION,
+        Imf::B44A_COMPRESSION, Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
+    SCOPED_TRACE(static_cast<int>(compression));
+    ExrMemoryOutput stream;
+    const std::vector<Imf::Rgba> pixels(64 * 48, Imf::Rgba(0.5f, 0.25f, 0.125f, 1));
+    {
+      Imf::Header header(64, 48);
+      header.compression() = compression;
+      Imf::RgbaOutputFile file(stream, header, Imf::WRITE_RGB);
+      file.setFrameBuffer(pixels.data(), 1, 64);
+      file.writePixels(48);
+    }
+    const Rgb c = decodeExr(asBytes(stream.take()), "a.exr").rgb(40, 30);
+    EXPECT_NEAR(c.r, 0.5f, 5e-3f);
+    EXPECT_NEAR(c.g, 0.25f, 5e-3f);
+    EXPECT_NEAR(c.b, 0.125f, 5e-3f);
+  }
+}
+
+TEST(Exr, RefusesDeepImagesAndTilesThatCannotBe) {
+  using namespace std::string_literals;
+  std::string deep = encodeExr(patternImage(3, 2), {});
+  deep[5] = static_cast<char>(deep[5] | 0x08);
+  expectRefused(ImageFormat::Exr, deep, "deep images are not supported");
+  ExrMemoryOutput stream;
+  const std::vector<Imf::Rgba> pixels(256 * 256);
+  {
+    Imf::TiledRgbaOutputFile file(stream, Imf::Header(256, 256), Imf::WRITE_RGBA, 64, 64, Imf::ONE_LEVEL);
+    file.setFrameBuffer(pixels.data(), 1, 256);
+    file.writeTiles(0, 3, 0, 3);
+  }
+  const std::string tiled = stream.take();
+  const std::size_t sides = attribute(tiled, "tiles\0tiledesc\0"s);
+  ASSERT_LT(sides, tiled.size());
+  for (const auto& [side, message] : {std::pair{0x7fffffffu, "the tiles are too large"},
+                                      {1u, "the table of tiles does not fit the file"}}) {
+    std::string changed = tiled;
+    setWord(changed, sides, side, 4, false);
+    setWord(changed, sides + 4, side, 4, false);
+    expectRefused(ImageFormat::Exr, changed, message);
   }
 }
 

@@ -74,6 +74,36 @@ TEST(ParamParser, ReadsSpectrumFiles) {
   expectNear(colours[1], {1.20233f, 0.94622f, 0.90734f});
 }
 
+TEST(ParamParser, SaysWhenASpectrumFileCannotBeUsedOrHasNoFiniteColour) {
+  const TemporaryFolder folder;
+  folder.write("twice.spd", "400 1\n400 2\n");
+  Diagnostics d;
+  parseText("Film \"image\" \"spectrum L\" \"twice.spd\"\n\"xyz M\" [3e38 3e38 3e38]\nWorldBegin WorldEnd",
+            "t.pbrt", folder.path(), d);
+  const std::string out = d.format();
+  EXPECT_NE(out.find("wavelength 400 nm appears more than once"), std::string::npos) << out;
+  EXPECT_NE(out.find("t.pbrt:2:10: error: parameter \"xyz M\": the spectrum has no finite RGB value"),
+            std::string::npos)
+      << out;
+}
+
+TEST(ParamParser, WarnsOfASpectrumFileBesideTheIncluder) {
+  const TemporaryFolder folder;
+  folder.write("main.pbrt", "Include \"sub/inc.pbrt\" WorldBegin WorldEnd");
+  folder.write("sub/inc.pbrt", "Film \"image\" \"spectrum L\" \"near.spd\"");
+  folder.write("sub/near.spd", "400 1\n700 1\n");
+  Diagnostics d;
+  const std::filesystem::path files[] = {folder.path() / "main.pbrt"};
+  const auto scenes = parseFiles(files, d);
+  EXPECT_FALSE(d.hasErrors()) << d.format();
+  EXPECT_NE(d.format().find("PBRT-v3 looks for \"" + (folder.path() / "near.spd").string()),
+            std::string::npos)
+      << d.format();
+  EXPECT_NEAR(
+      std::get<std::vector<Rgb>>(scenes.at(0).film.params.find(ParamKind::Spectrum, "L")->values).at(0).g,
+      0.946f, 0.01f);
+}
+
 TEST(ParamParser, NamesAMissingOrBrokenSpectrumFile) {
   const TemporaryFolder folder;
   const std::string bad = folder.write("bad.spd", "400 1\n500 x\n").string();
