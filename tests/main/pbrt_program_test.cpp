@@ -389,6 +389,19 @@ TEST_F(Pbrt, CatPrintsASceneThatParsesToTheSameImage) {
   EXPECT_EQ(readImage(folder_.path() / "one.exr").data(), readImage(folder_.path() / "two.exr").data());
 }
 
+TEST_F(Pbrt, MediumParametersOfTheCommandLineAreCheckedAndMustFindAMedium) {
+  folder_.write("a.pbrt", kScene);
+  const ProcessResult wrong = pbrt("--mediumparams '\"float majorant\" \"x\"' a.pbrt");
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_NE(wrong.output.find("--mediumparams:1:18: error: parameter \"float majorant\""), std::string::npos)
+      << wrong.output;
+  const ProcessResult none = pbrt("--mediumparams '\"float majorant\" 2' a.pbrt");
+  EXPECT_EQ(none.status, 0);
+  EXPECT_NE(none.output.find("the scene has no medium with a density field: nothing was set"),
+            std::string::npos)
+      << none.output;
+}
+
 TEST_F(Pbrt, CatSaysWhenItCannotWrite) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   folder_.write("a.pbrt", kScene);

@@ -101,6 +101,31 @@ TEST_F(Imgtool, InfoReportsWhatTheFileHolds) {
   EXPECT_TRUE(info.contains("logAverageLuminance"));
 }
 
+TEST_F(Imgtool, InfoNamesEveryFormat) {
+  for (const auto& [file, format] :
+       {std::pair{"a.exr", "OpenEXR"}, {"a.png", "PNG"}, {"a.pfm", "PFM"}, {"a.tga", "TGA"}}) {
+    write(file, ramp(4, 2));
+    const ProcessResult text = run(std::string("info ") + file);
+    EXPECT_EQ(text.status, 0);
+    expectIn(text, format);
+    EXPECT_EQ(json::parse(run(std::string("info --json ") + file).output).at(0)["format"], format);
+  }
+}
+
+TEST_F(Imgtool, ConvertDespikesAndPreservesColours) {
+  Image image(3, 3);
+  for (float& v : image.data()) v = 0.25f;
+  image.setRgb(1, 1, Rgb(100));
+  write("spike.exr", image);
+  ASSERT_EQ(run("convert --despike 10 --pixeltype float spike.exr flat.exr").status, 0);
+  EXPECT_EQ(read("flat.exr").rgb(1, 1), Rgb(0.25f));
+  image.setRgb(1, 1, {4, 2, 1});
+  write("bright.exr", image);
+  ASSERT_EQ(run("convert --preservecolors --pixeltype float bright.exr kept.exr").status, 0);
+  EXPECT_EQ(read("kept.exr").rgb(1, 1), Rgb(1, 0.5f, 0.25f));
+  EXPECT_EQ(read("kept.exr").rgb(0, 0), Rgb(0.25f));
+}
+
 TEST_F(Imgtool, ConvertFromPngToPngIsTheIdentity) {
   Image image(16, 16);
   int i = 0;
