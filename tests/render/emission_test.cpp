@@ -83,12 +83,13 @@ const std::string kLearned = "\"string bounds\" \"progressive\" \"float initiale
 
 TEST(EmissionUnderUnprovenBounds, ThinBrightGasIsWithinAPercentAtSixtyFourSamples) {
   // Optical depth 2.2e-6. A first bound of 0.01 is far above these extinctions and cuts nothing.
-  const double le = 1 / 2.2e-6;
+  const auto sceneOf = [](const std::string& parameters) {
+    return pencil(1, 1, volpath(3), kAlongZ) + "WorldBegin\n" + kBlocks +
+           medium(parameters, 1e-6, 0, 1 / 2.2e-6) + kCube + "WorldEnd\n";
+  };
   for (const std::string& parameters : {kTexture + constantBound(2e-6), kTexture + constantBound(1),
                                         kTexture + kLearned, kEvenGrid + kLearned}) {
-    const std::string scene = pencil(1, 1, volpath(3), kAlongZ) + "WorldBegin\n" + kBlocks +
-                              medium(parameters, 1e-6, 0, le) + kCube + "WorldEnd\n";
-    const RunningStats pixels = samplesOf(scene, 1 << 12);
+    const RunningStats pixels = samplesOf(sceneOf(parameters), 1 << 12);
     EXPECT_NEAR(pixels.mean(), 1, 2e-3 + kMaxAbsZ * pixels.standardError()) << parameters;
     EXPECT_LT(std::sqrt(pixels.variance() / 64), .01) << parameters;
   }
@@ -106,15 +107,16 @@ TEST(EmissionUnderUnprovenBounds, AbsorbingTextureShowsItsOpticalDepth) {
 
 TEST(EmissionUnderUnprovenBounds, HotFurnaceIsWhiteWhateverIsCut) {
   // Emission and absorption are cut alike: every pass of a furnace is white.
+  const auto furnace = [](const std::string& parameters) {
+    return pencil(2, 1, volpath(100000), kAlongZ, .5) + "WorldBegin\n" + kWhiteEnvironment + kBlocks +
+           medium(parameters, .5, 1, 1) + kCube +
+           "Material \"matte\" \"rgb Kd\" [ 1 1 1 ] Shape \"sphere\" \"float radius\" .4\nWorldEnd\n";
+  };
   for (const std::string& parameters : {kTexture + constantBound(3), kTexture + kLearned, kGrid + kLearned,
                                         kPerlin + kLearned, kPerlin + constantBound(1.5)}) {
     for (const int learningPasses : {0, 16}) {
       if (learningPasses > 0 && parameters.find("progressive") == std::string::npos) continue;
-      const std::string scene = pencil(2, 1, volpath(100000), kAlongZ, .5) + "WorldBegin\n" +
-                                kWhiteEnvironment + kBlocks + medium(parameters, .5, 1, 1) + kCube +
-                                "Material \"matte\" \"rgb Kd\" [ 1 1 1 ] Shape \"sphere\" \"float radius\" "
-                                ".4\nWorldEnd\n";
-      const ZTest test = zTest(samplesOf(scene, 1 << 12, 1, learningPasses), 1, 1);
+      const ZTest test = zTest(samplesOf(furnace(parameters), 1 << 12, 1, learningPasses), 1, 1);
       EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << parameters << ": " << test;
       EXPECT_LT(test.standardError, .03) << "a bias of a sixth must be seen";
     }
