@@ -94,8 +94,8 @@ void checkPieces(ParamReader& in, const FieldMediumParams& p, bool inPieces) {
     text += "; these work here: " + others;
     in.error(ParamKind::String, parameter, text);
   };
-  if (traitsOf(p.estimator).needsPieces)
-    refuse("transmittance", nameOf(p.estimator), othersOf(estimatorNames(), findEstimator));
+  if (p.estimator && traitsOf(*p.estimator).needsPieces)
+    refuse("transmittance", nameOf(*p.estimator), othersOf(estimatorNames(), findEstimator));
   if (traitsOf(p.sampler).needsPieces)
     refuse("freeflight", nameOf(p.sampler), othersOf(samplerNames(), findSampler));
 }

@@ -67,16 +67,13 @@ bool readMediumBox(ParamReader& in, Point3f& p0, Point3f& p1) {
 void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, DensityKind kind,
                            FieldMediumParams& p) {
   readMediumParams(in, medium, p);
-  p.estimator = readTransmittance(in, p.estimator);
-  if (!std::holds_alternative<ExponentialLaw>(lawOf(p.estimator)) && !p.le.isBlack()) {
+  const bool inPieces = kind == DensityKind::InPieces;
+  p.estimator = readTransmittance(in, inPieces);
+  const AnyLaw law = p.estimator ? lawOf(*p.estimator) : AnyLaw();
+  if (!std::holds_alternative<ExponentialLaw>(law) && !p.le.isBlack()) {
     in.error(ParamKind::String, "law", "a medium that emits (Le) follows the exponential law only");
   }
-  if (!std::holds_alternative<ExponentialLaw>(lawOf(p.estimator)) && p.sigmaS.max() > 0) {
-    in.error(ParamKind::String, "law",
-             "free flights follow the exponential law only: under another one the medium must not scatter "
-             "(sigma_s 0)");
-  }
-  p.sampler = readFreeFlight(in, p.sampler);
+  p.sampler = readFreeFlight(in, law, inPieces, p.sigmaS.max() > 0);
   p.pattern =
       static_cast<PatternKind>(in.findChoice("pattern", kPatternNames, static_cast<std::size_t>(p.pattern)));
   p.bounds = readBounds(in, p.bounds.source);
@@ -84,7 +81,7 @@ void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, Den
       sigmaT > 0 && !std::isfinite(p.bounds.majorant / sigmaT)) {
     in.error(ParamKind::Float, "majorant", "divided by the largest sigma_t it is no finite density");
   }
-  checkPieces(in, p, kind == DensityKind::InPieces);
+  checkPieces(in, p, inPieces);
 }
 
 }  // namespace pbrtmedia

@@ -18,10 +18,12 @@ std::optional<ParameterValue> readValue(ParamReader& in, const ParameterDescript
 
 /// Sets what the scene says of the parameters of `target`, which has parametersOf and setParameter: an
 /// estimator, a law, a free-flight sampler. One of them may bring others with it (the base of an estimator
-/// over another), so the list is read again until it stays.
+/// over another), so the list is read again until it stays. Returns
+/// whether it says anything.
 template <class Target>
-void readParameters(ParamReader& in, Target& target) {
+bool readParameters(ParamReader& in, Target& target) {
   std::set<std::string> done;
+  bool any = false;
   for (bool grew = true; grew;) {
     grew = false;
     for (const ParameterDescription& d : parametersOf(target)) {
@@ -30,10 +32,12 @@ void readParameters(ParamReader& in, Target& target) {
       ParamKind kind{};
       const std::optional<ParameterValue> value = readValue(in, d, kind);
       if (!value) continue;
+      any = true;
       if (const AssignResult r = setParameter(target, d.name, *value); r.error)
         in.error(kind, d.name, *r.error);
     }
   }
+  return any;
 }
 
 /// A warning at the parameter `choice` for a method that is not unbiased: what it is, and how much.

@@ -18,33 +18,49 @@ std::vector<std::string_view> estimatorsThatServe(const AnyLaw& law) {
   return names;
 }
 
+/// What the parameters of a medium that names no estimator are those of.
+const RatioTracking kEstimatorByParameters{.rouletteThreshold = 0.3};
+
 }  // namespace
 
-AnyEstimator readTransmittance(ParamReader& in, AnyEstimator fallback) {
-  AnyEstimator estimator = std::move(fallback);
-  if (const std::optional<std::string> name = in.optionalString("transmittance")) {
+std::optional<AnyEstimator> readTransmittance(ParamReader& in, bool inPieces) {
+  const std::optional<std::string> name = in.optionalString("transmittance");
+  bool isAuto = !name || *name == "auto";
+  AnyEstimator estimator = kEstimatorByParameters;
+  if (name && !isAuto) {
     if (std::optional<AnyEstimator> found = findEstimator(*name)) {
       estimator = *std::move(found);
     } else {
+      std::vector<std::string_view> names = estimatorNames();
+      names.push_back("auto");
       in.error(ParamKind::String, "transmittance",
-               "unknown estimator \"" + *name + "\"" + suggestion(*name, estimatorNames()));
+               "unknown estimator \"" + *name + "\"" + suggestion(*name, names));
     }
   }
-  readParameters(in, estimator);
-  if (const std::optional<std::string> name = in.optionalString("law")) {
-    if (std::optional<AnyLaw> law = findLaw(*name)) {
+  // Whoever says "auto" leaves the parameters to it too.
+  if (!name || !isAuto) {
+    if (readParameters(in, estimator)) isAuto = false;
+  }
+  if (const std::optional<std::string> lawName = in.optionalString("law")) {
+    if (std::optional<AnyLaw> law = findLaw(*lawName)) {
       readParameters(in, *law);
+      if (isAuto && !traitsOf(estimator).laws.has(*law)) {
+        isAuto = false;
+        estimator = inPieces ? AnyEstimator(RegularTracking{}) : AnyEstimator(DebiasedRayMarching{});
+      }
       if (!setLaw(estimator, *law)) {
         std::string text = "estimator \"";
         text += nameOf(estimator);
-        text += "\" serves " + joinedNames(traitsOf(estimator).laws.names()) + "; the law \"" + *name +
+        text += "\" serves " + joinedNames(traitsOf(estimator).laws.names()) + "; the law \"" + *lawName +
                 "\" is served by " + joinedNames(estimatorsThatServe(*law));
         in.error(ParamKind::String, "law", text);
       }
     } else {
-      in.error(ParamKind::String, "law", "unknown law \"" + *name + "\"" + suggestion(*name, lawNames()));
+      in.error(ParamKind::String, "law",
+               "unknown law \"" + *lawName + "\"" + suggestion(*lawName, lawNames()));
     }
   }
+  if (isAuto) return std::nullopt;
   const EstimatorTraits traits = traitsOf(estimator);
   std::string what = "estimator \"";
   what += nameOf(estimator);

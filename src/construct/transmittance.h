@@ -7,8 +7,11 @@
 namespace pbrtmedia {
 
 /// Reads `"string transmittance"` with the parameters of the estimator it names, and `"string law"` with
-/// those of the law, from a medium. `fallback`: the estimator of a medium that names none. Errors name the
-/// estimators, laws or words that would have been right; a biased estimator is worth a warning.
-AnyEstimator readTransmittance(ParamReader& in, AnyEstimator fallback);
+/// those of the law, from a medium. Nothing: the choice is the
+/// medium's ("auto", or no name). Parameters of ratio tracking without a name mean it. Under a law that
+/// ratio tracking does not serve, "auto" is an estimator that does; `inPieces`: whether voxels can be walked.
+/// Errors name the estimators, laws or words that would have been right; a biased estimator is worth a
+/// warning.
+std::optional<AnyEstimator> readTransmittance(ParamReader& in, bool inPieces);
 
 }  // namespace pbrtmedia

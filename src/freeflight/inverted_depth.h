@@ -13,16 +13,17 @@
 namespace pbrtmedia {
 
 /// What samplers share that know the integral of the density: the flight ends where the optical depth of one
-/// channel, chosen at random, reaches an exponential variate, and weighs by the mean density of all channels
-/// (spectral multiple importance sampling; grey media weigh 1).
+/// channel, chosen at random, reaches an exponential variate (under another law g one that exceeds F with
+/// probability g(F)), and weighs by the mean density of all channels (spectral multiple importance sampling;
+/// grey media weigh 1).
 template <std::size_t N>
 class InvertedDepth {
  public:
   /// sigmaT: some channel > 0. A channel is chosen in proportion to its importance.
   InvertedDepth(const FlightQuery<N>& query, Rng& rng)
-      : sigmaT_(query.sigmaT), importance_(query.importance) {
+      : sigmaT_(query.sigmaT), importance_(query.importance), law_(query.law) {
     const std::size_t channel = N == 1 ? 0 : chooseChannel(importance_, rng.uniformDouble());
-    const double depth = rng.exponential();
+    const double depth = law_ ? depthReachedOf(*law_, 1 - rng.uniformDouble()) : rng.exponential();
     column_ = sigmaT_[channel] > 0 ? depth / sigmaT_[channel] : std::numeric_limits<double>::infinity();
   }
 
@@ -37,6 +38,7 @@ class InvertedDepth {
  private:
   Channels<N> weights(double column, bool collided) const {
     if constexpr (N == 1) return filled<1>(1);
+    if (law_) return weightsUnderLaw(column, collided);
     // Relative to the clearest channel that counts, which keeps the sum from vanishing.
     double clearest = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < N; ++c) {
@@ -55,7 +57,21 @@ class InvertedDepth {
     return weight;
   }
 
+  Channels<N> weightsUnderLaw(double column, bool collided) const {
+    Channels<N> weight;
+    double sum = 0;
+    for (std::size_t c = 0; c < N; ++c) {
+      const double depth = sigmaT_[c] > 0 ? sigmaT_[c] * column : 0;
+      weight[c] = importance_[c] *
+                  (collided ? sigmaT_[c] * collisionDensityOf(*law_, depth) : transmittanceOf(*law_, depth));
+      sum += weight[c];
+    }
+    for (double& w : weight) w *= sum > 0 ? static_cast<double>(N) / sum : 0;
+    return weight;
+  }
+
   Channels<N> sigmaT_, importance_;
+  const AnyLaw* law_;  ///< null: exponential
   double column_;
 };
 

@@ -47,6 +47,7 @@ struct MarchedFlight {
         .bias = EstimatorTraits::Bias::Consistent,
         .biasNote = "densities between the steps' midpoints are not seen; falls with the square of the step",
         .control = EstimatorTraits::Control::Unused,
+        .laws = LawSet::all(),
         .unitWeights = true};
   }
 

@@ -30,6 +30,7 @@ struct RegularFlight {
         .source = "Amanatides & Woo 1987 for the walk; Gauss-Legendre and Newton's method for the inversion",
         .useWhen = "truth is wanted, or lines cross few voxels",
         .control = EstimatorTraits::Control::Unused,
+        .laws = LawSet::all(),
         .needsPieces = true,
         .unitWeights = true};
   }

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "transmittance/law.h"
 #include "transmittance/traits.h"
 
 namespace pbrtmedia {
@@ -15,6 +16,7 @@ struct SamplerTraits {
   EstimatorTraits::Bias bias = EstimatorTraits::Bias::Unbiased;
   std::string_view biasNote = "";  ///< when and how large; empty: nothing to add
   EstimatorTraits::Control control = EstimatorTraits::Control::Any;
+  LawSet laws = LawSet::exponential();
   bool needsPieces = false;  ///< asks for a PiecewiseCubicLine (fields/density_line.h)
   bool unitWeights = false;  ///< one channel, under a bounding control: every weight is exactly 1
 };

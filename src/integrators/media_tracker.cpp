@@ -223,6 +223,13 @@ double MediaTracker::flightDensity(const MediumState& state, const Ray& ray, dou
   return sum / 3;
 }
 
+bool MediaTracker::isExponential(const MediumState& state) {
+  for (std::size_t i = 0; i < state.activeCount(); ++i) {
+    if (!state.active(i).medium->isExponential()) return false;
+  }
+  return true;
+}
+
 bool MediaTracker::emits(const MediumState& state) {
   for (std::size_t i = 0; i < state.activeCount(); ++i) {
     if (state.active(i).medium->isEmissive()) return true;

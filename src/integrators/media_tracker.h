@@ -82,6 +82,8 @@ class MediaTracker {
   /// Mean over the stretch and the channels of the extinction that the media's controls say together; on an
   /// endless one that at its end. 0 only where nothing can collide.
   static double meanExtinction(const MediumState& state, const Ray& ray, double tMin, double tMax);
+  /// Whether all active media follow the exponential law.
+  static bool isExponential(const MediumState& state);
   /// Whether some active medium emits.
   static bool emits(const MediumState& state);
   /// A point of the segment chosen where active medium number `i` emits.

@@ -65,8 +65,8 @@ PathTracer::Event PathTracer::travel() {
   return travelOn({LineWalk(setup_.scene, ray_, Exclusions(rayStart_)), startPlane_});
 }
 
-PathTracer::Event PathTracer::travelOn(Travel travel) {
-  auto& [walk, start, t] = travel;
+PathTracer::Event PathTracer::travelOn(Travel way) {
+  auto& [walk, start, t] = way;
   const auto fits = [&](const SceneHit& h) {
     return !setup_.media || setup_.media->fits(state_, h, setup_.scene.surface(h, ray_), ray_.d);
   };
@@ -83,7 +83,7 @@ PathTracer::Event PathTracer::travelOn(Travel travel) {
     }
     if (!state_.isVacuum()) {
       Event event = Event::End;
-      if (!passMedium(travel, tEnd, nearest ? &*nearest : nullptr, event)) return event;
+      if (!passMedium(way, tEnd, nearest ? &*nearest : nullptr, event)) return event;
     }
     const std::optional<SceneHit> hit = walk.next(counters_.rays, fits);
     if (!hit) {
@@ -109,21 +109,23 @@ PathTracer::Event PathTracer::travelOn(Travel travel) {
 }
 
 /// The media between two surfaces. True: the path passes. False: `event` tells whether it scatters or ends.
-bool PathTracer::passMedium(const Travel& travel, double tMax, const SceneHit* hit, Event& event) {
+bool PathTracer::passMedium(const Travel& way, double tMax, const SceneHit* hit, Event& event) {
   if (!seesOnlyEmission() && splitsChannels()) {
-    followChannels(travel);
+    followChannels(way);
     event = Event::End;
     return false;
   }
-  const double tMin = travel.t;
-  const BoundaryPlane& start = travel.start;
+  const double tMin = way.t;
+  const BoundaryPlane& start = way.start;
   if (setup_.mediaEmit) collectMediumEmission(tMin, tMax);
   if (seesOnlyEmission()) {
     beta_ *= MediaTracker::transmittance(state_, ray_, tMin, tMax, context_.rng, counters_);
     return !beta_.isBlack();
   }
   std::optional<double> extinction;
-  if (setup_.positionLights) {
+  // Under another law, what a stretch scatters is not extinction times transmittance.
+  const bool lightsStretch = setup_.positionLights && MediaTracker::isExponential(state_);
+  if (lightsStretch) {
     // Media of nothing take no sample: their boundaries leave the image as it is, bit for bit.
     const double mean = MediaTracker::meanExtinction(state_, ray_, tMin, tMax);
     if (setup_.params.mediumLightSampling == MediumLightSampling::Auto) extinction = mean;
@@ -133,8 +135,11 @@ bool PathTracer::passMedium(const Travel& travel, double tMax, const SceneHit* h
       MediaTracker::sampleFreeFlight(state_, ray_, tMin, tMax, beta_, context_.rng, counters_);
   beta_ *= flight.weight;
   if (beta_.isBlack()) return false;
-  if (!flight.collided) return true;
-  medium_ = {mediumPoint(flight.t, tMax, hit, start), flight.phase, flight.t, tMin, tMax, extinction};
+  // A path that media have dimmed on its way has little part in the variance. What is seen directly stays
+  // exact.
+  if (!flight.collided) return flight.weight == Rgb(1.0f) || bounces_ == 0 || playRoulette(/*inMedium=*/true);
+  medium_ = {
+      mediumPoint(flight.t, tMax, hit, start), flight.phase, flight.t, tMin, tMax, extinction, lightsStretch};
   if (!isFinite(medium_.p)) return false;  // beyond what coordinates can tell: nothing is out there
   event = Event::Medium;
   return false;
@@ -161,14 +166,14 @@ bool PathTracer::splitsChannels() const {
 
 /// The rest of the path once for each channel. A channel alone is what free flights choose distances for, as
 /// they are told its throughput.
-void PathTracer::followChannels(const Travel& travel) {
+void PathTracer::followChannels(const Travel& way) {
   for (std::size_t c = 0; c < 3; ++c) {
     if (beta_[c] == 0) continue;
     PathTracer one(*this);
     one.radiance_ = Rgb();
     one.beta_ = Rgb();
     one.beta_[c] = beta_[c];
-    radiance_ += one.finish(one.travelOn({LineWalk(travel.walk, one.ray_), travel.start, travel.t}));
+    radiance_ += one.finish(one.travelOn({LineWalk(way.walk, one.ray_), way.start, way.t}));
   }
 }
 
@@ -365,7 +370,7 @@ float PathTracer::lightWeight(const PickedLight& light, Point3f p, float directi
 
 /// Share of a collision's sample of a light at one point; `lightStretch` accounts for the rest.
 float PathTracer::collisionShare(std::size_t light, Point3f p) const {
-  if (!setup_.positionLights || !setup_.positionLights->contains(light)) return 1;
+  if (!medium_.lightsStretch || !setup_.positionLights->contains(light)) return 1;
   const MediumLightSampling sampling = setup_.params.mediumLightSampling;
   if (sampling == MediumLightSampling::Equiangular) return 0;
   const double stretch =

@@ -44,6 +44,7 @@ class PathTracer {
     const PhaseFunction* phase;
     double t, tMin, tMax;              ///< on the ray, and the stretch in media that it was sampled on
     std::optional<double> extinction;  ///< PositionLights::Stretch
+    bool lightsStretch;                ///< lights were sampled for the stretch
   };
   enum class Event { End, Surface, Medium };
 
@@ -57,10 +58,10 @@ class PathTracer {
   Rgb finish(Event event);
   // Each path event is one function. Those that return bool tell whether the path goes on.
   Event travel();
-  Event travelOn(Travel travel);
-  bool passMedium(const Travel& travel, double tMax, const SceneHit* hit, Event& event);
+  Event travelOn(Travel way);
+  bool passMedium(const Travel& way, double tMax, const SceneHit* hit, Event& event);
   bool splitsChannels() const;
-  void followChannels(const Travel& travel);
+  void followChannels(const Travel& way);
   Point3f mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
   void lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
   void collectMediumEmission(double tMin, double tMax);

@@ -21,6 +21,7 @@
 #include "media/field_medium_params.h"
 #include "media/medium.h"
 #include "media/rgb_channels.h"
+#include "media/tracking_choice.h"
 #include "transmittance/any_estimator.h"
 #include "transmittance/estimate_on.h"
 #include "transmittance/sample_stream.h"
@@ -43,7 +44,8 @@ class FieldMedium final : public Medium {
         bounds_(inForce(field_, ownBounds_)),
         typeName_(typeName),
         sigmaT_(params.sigmaA + params.sigmaS),
-        estimator_(params.estimator),
+        isAuto_(!params.estimator),
+        estimator_(params.estimator.value_or(AnyEstimator())),
         sampler_(params.sampler),
         samplingPattern_(params.pattern),
         phase_(makePhaseFunction(params.phase)),
@@ -52,6 +54,16 @@ class FieldMedium final : public Medium {
     checkCoefficients(params.sigmaA, params.sigmaS, name());
     checkEmission(params.le, params.sigmaA * params.le, name());
     albedo_ = albedoOf(sigmaS_, sigmaT_);
+    if (isAuto_) {
+      estimator_ = chooseEstimator({.lines = lineStatistics(field_, bounds_),
+                                    .sigmaT = static_cast<double>(sigmaT_.max()),
+                                    .provenBounds = Field::kProvenBounds,
+                                    .batchedLookups = BatchedField<Field>});
+    }
+    law_ = lawOf(estimator_);
+    if (!traitsOf(sampler_).laws.has(law_) && !sigmaS_.isBlack()) {
+      throw SceneError(SourceLocation{}, "free flights of this sampler follow the exponential law only");
+    }
     if (!PiecewiseCubicField<Field> && (traitsOf(estimator_).needsPieces || traitsOf(sampler_).needsPieces)) {
       throw SceneError(SourceLocation{},
                        "regular tracking goes from voxel to voxel, but this density has none");
@@ -73,6 +85,7 @@ class FieldMedium final : public Medium {
 
   std::string_view typeName() const override { return typeName_; }
   const PhaseFunction& phase() const override { return *phase_; }
+  bool isExponential() const override { return std::holds_alternative<ExponentialLaw>(law_); }
   Rgb sigmaT() const override { return sigmaT_; }
 
   /// A segment with a NaN gives NaN, so that the sample is dropped and counted where such are.
@@ -81,8 +94,7 @@ class FieldMedium final : public Medium {
     const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
     if (!line) return Rgb(1.0f);
     explore(*line, rng, counters);
-    return sigmaT_.isGrey() ? estimate(*line, segment, Channels<1>{sigmaT_.r}, rng, counters)
-                            : estimate(*line, segment, channelsOf(sigmaT_), rng, counters);
+    return dimmed(*line, segment, rng, counters);
   }
 
   FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
@@ -91,12 +103,15 @@ class FieldMedium final : public Medium {
     const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
     if (!line) return {};
     explore(*line, rng, counters);
+    // What only absorbs dims: its collisions would end paths and nothing else.
+    if (sigmaS_.isBlack()) return {false, 0, dimmed(*line, segment, rng, counters)};
+    const AnyLaw* const law = isExponential() ? nullptr : &law_;
     FreeFlight flight =
         sigmaT_.isGrey()
-            ? fly(*line, segment, FlightQuery<1>{{sigmaT_.r}, {albedo_.average()}}, rng, counters)
+            ? fly(*line, segment, FlightQuery<1>{{sigmaT_.r}, {albedo_.average()}, {1}, law}, rng, counters)
             : fly(*line, segment,
                   FlightQuery<3>{channelsOf(sigmaT_), channelsOf(albedo_),
-                                 importanceOf(channelsOf(throughput))},
+                                 importanceOf(channelsOf(throughput)), law},
                   rng, counters);
     if (flight.collided) flight.t = std::clamp(flight.t, segment.tMin, segment.tMax);
     return flight;
@@ -173,9 +188,8 @@ class FieldMedium final : public Medium {
     std::ostringstream text;
     text << field_.describe() << ", super-voxels " << n.x << " x " << n.y << " x " << n.z << " ("
          << bounds_.emptyCells() << " empty), estimator " << nameOf(estimator_);
-    if (const AnyLaw law = lawOf(estimator_); !std::holds_alternative<ExponentialLaw>(law)) {
-      text << " (law " << nameOf(law) << ')';
-    }
+    if (isAuto_) text << " (auto)";
+    if (!isExponential()) text << " (law " << nameOf(law_) << ')';
     if (samplingPattern_ != PatternKind::Independent)
       text << " (pattern " << kPatternNames[static_cast<std::size_t>(samplingPattern_)] << ')';
     text << ", sampler " << nameOf(sampler_) << ", " << (sigmaT_.isGrey() ? "1 channel" : "3 channels")
@@ -244,6 +258,12 @@ class FieldMedium final : public Medium {
     return toRgb(result.value);
   }
 
+  /// The transmittance of a segment.
+  Rgb dimmed(const FieldLine<Field>& line, const Segment& segment, Rng& rng, RenderCounters& counters) const {
+    return sigmaT_.isGrey() ? estimate(line, segment, Channels<1>{sigmaT_.r}, rng, counters)
+                            : estimate(line, segment, channelsOf(sigmaT_), rng, counters);
+  }
+
   /// Learned bounds grow where somebody looks. While they still do, every segment looks once more, at a
   /// random point: thin first bounds alone would hardly ever look. It changes no estimate of the pass.
   void explore(const FieldLine<Field>& line, Rng& rng, RenderCounters& counters) const {
@@ -280,7 +300,9 @@ class FieldMedium final : public Medium {
   const SuperVoxels& bounds_;  ///< the own ones, or those in force in the field
   std::string_view typeName_;
   Rgb sigmaT_, albedo_;
+  bool isAuto_;  ///< the estimator
   AnyEstimator estimator_;
+  AnyLaw law_;
   AnySampler sampler_;
   PatternKind samplingPattern_;
   std::unique_ptr<PhaseFunction> phase_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "freeflight/any_sampler.h"
 #include "media/bounds_params.h"
@@ -17,7 +18,7 @@ namespace pbrtmedia {
 struct FieldMediumParams : MediumParams {
   /// What `le` is multiplied with from place to place; null: nothing.
   std::shared_ptr<const EmissionPattern> emissionPattern;
-  AnyEstimator estimator = RatioTracking{.rouletteThreshold = 0.1};
+  std::optional<AnyEstimator> estimator;  ///< none: chosen by `chooseEstimator`
   AnySampler sampler;
   PatternKind pattern = PatternKind::Independent;  ///< across the estimates of one pixel
   BoundsParams bounds;

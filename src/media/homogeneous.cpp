@@ -44,9 +44,11 @@ Rgb HomogeneousMedium::transmittance(const Segment& segment, Rng&, RenderCounter
 }
 
 FreeFlight HomogeneousMedium::sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
-                                               RenderCounters&) const {
+                                               RenderCounters& counters) const {
   // A medium of nothing takes no random number: its boundaries leave the image as it is, bit for bit.
   if (sigmaT_.isBlack()) return {};
+  // What only absorbs dims: its collisions would end paths and nothing else.
+  if (sigmaS_.isBlack()) return {false, 0, transmittance(segment, rng, counters)};
   return grey_ ? fly(segment, FlightQuery<1>{{sigmaT_.r}}, rng)
                : fly(segment,
                      FlightQuery<3>{.sigmaT = channelsOf(sigmaT_),

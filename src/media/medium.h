@@ -75,6 +75,9 @@ class Medium {
   virtual FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
                                       RenderCounters& counters) const = 0;
   virtual const PhaseFunction& phase() const = 0;
+  /// Whether transmittance is the exponential of the optical depth. If not, collisions at a distance are not
+  /// extinction times transmittance.
+  virtual bool isExponential() const { return true; }
   /// Extinction coefficient, where a density scales it that at density 1. Tells how far channels differ.
   virtual Rgb sigmaT() const = 0;
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "transmittance/falling_inverse.h"
 #include "transmittance/parameters.h"
 
 namespace pbrtmedia {
@@ -35,6 +36,15 @@ struct DavisLaw {
     const double logY = beta * std::log(depth) + (1 + beta) * std::log(correlation);
     return std::exp(-logY * std::pow(depth, 1 - beta) * std::pow(correlation, -1 - beta));
   }
+  /// g = exp(-h) with h' = (1 - beta) log1p(y) / y + beta / (1 + y), y = F^beta C^(1+beta).
+  double density(double depth) const {
+    const double g = (*this)(depth);
+    if (!(g > 0)) return 0;
+    const double y = std::pow(depth, beta) * std::pow(correlation, 1 + beta);
+    if (std::isinf(y)) return 0;
+    return g * ((1 - beta) * (y > 0 ? std::log1p(y) / y : 1) + beta / (1 + y));
+  }
+  double depthReached(double u) const { return invertFalling(*this, u); }
 };
 
 }  // namespace pbrtmedia

@@ -11,6 +11,8 @@ struct ExponentialLaw {
   static constexpr std::string_view kName = "exponential";
   static constexpr std::string_view kFormula = "exp(-F)";
   double operator()(double depth) const { return std::exp(-depth); }
+  double density(double depth) const { return std::exp(-depth); }
+  double depthReached(double u) const { return -std::log(u); }
 };
 
 }  // namespace pbrtmedia

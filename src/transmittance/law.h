@@ -17,14 +17,25 @@
 namespace pbrtmedia {
 
 /// The one list of laws; the first is the default. A law g turns optical depth F >= 0 into transmittance:
-/// g(0) = 1, falling, g >= 0. Each is a small value with `kName`, `kFormula`, g as its call operator, and
-/// parameters().
+/// g(0) = 1, falling, g >= 0. Each is a small value with `kName`, `kFormula`, g as its call operator,
+/// parameters(), and for free flights
+///   density(F): -g'(F), the density of the optical depth at which a flight collides; infinite F: 0
+///   depthReached(u): the F at which g falls to u, infinite where it never does; u in (0, 1].
 using AnyLaw = std::variant<ExponentialLaw, PinkNoiseLaw, DavisLaw, LinearLaw, MixtureLaw>;
 
 /// g(F). F below 0, which only corrected quadrature can find, counts as 0 except for the exponential law.
 inline double transmittanceOf(const AnyLaw& law, double depth) {
   if (const auto* exponential = std::get_if<ExponentialLaw>(&law)) return (*exponential)(depth);
   return std::visit([&](const auto& g) { return g(std::max(depth, 0.0)); }, law);
+}
+
+/// -g'(F), F >= 0.
+inline double collisionDensityOf(const AnyLaw& law, double depth) {
+  return std::visit([&](const auto& g) { return g.density(depth); }, law);
+}
+/// The optical depth that a flight flies, for u uniform in (0, 1]: it gets beyond F with probability g(F).
+inline double depthReachedOf(const AnyLaw& law, double u) {
+  return std::visit([&](const auto& g) { return g.depthReached(u); }, law);
 }
 
 std::string_view nameOf(const AnyLaw& law);

@@ -21,6 +21,8 @@ struct LinearLaw {
         Parameter{"extent", &LinearLaw::extent, "optical depth at which nothing is left", 1e-6, 1e6}};
   }
   double operator()(double depth) const { return std::max(0.0, 1 - depth / extent); }
+  double density(double depth) const { return depth < extent ? 1 / extent : 0; }
+  double depthReached(double u) const { return (1 - u) * extent; }
 };
 
 }  // namespace pbrtmedia

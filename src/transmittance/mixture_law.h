@@ -5,6 +5,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "transmittance/falling_inverse.h"
 #include "transmittance/parameters.h"
 
 namespace pbrtmedia {
@@ -28,6 +29,11 @@ struct MixtureLaw {
     const auto part = [&](double factor) { return factor > 0 ? std::exp(-factor * depth) : 1; };
     return weight * part(thin) + (1 - weight) * part(thick);
   }
+  double density(double depth) const {
+    const auto part = [&](double factor) { return factor > 0 ? factor * std::exp(-factor * depth) : 0; };
+    return weight * part(thin) + (1 - weight) * part(thick);
+  }
+  double depthReached(double u) const { return invertFalling(*this, u); }
 };
 
 }  // namespace pbrtmedia

@@ -31,6 +31,15 @@ struct PinkNoiseLaw {
     if (!std::isinf(y)) return -depth * (std::log1p(y) / y);
     return -(std::log(depth) + 2 * std::log(correlation)) / c2;
   }
+  double density(double depth) const {
+    const double c2 = correlation * correlation, y = c2 * depth;
+    if (!(y > 0)) return std::exp(-depth);
+    return std::isinf(y) ? 0 : std::exp(logarithm(depth)) / (1 + y);
+  }
+  double depthReached(double u) const {
+    const double c2 = correlation * correlation, l = -std::log(u), y = c2 * l;
+    return y > 0 ? l * (std::expm1(y) / y) : l;
+  }
 
   /// Taylor coefficients c_k = g^(k)(depth) / k! follow from c_0 = g(depth) by
   ///   c_k / c_{k-1} = -growth(k) / (1 + C^2 depth),  k = 1, 2, ...

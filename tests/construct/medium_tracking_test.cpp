@@ -64,9 +64,21 @@ TEST(ConstructFreeFlight, ParametersHaveTheirEffectAndMistakesAreTold) {
   EXPECT_NE(media(with(single)), media(with(single + "\"float boundscale\" 0.5")));
   EXPECT_NE(media(with(marched)), media(with(marched + "\"integer flightsteps\" 3")));
   EXPECT_NE(media(with(kGrid)), media(with(kGrid + "\"string freeflight\" \"regular\"")));
+  EXPECT_EQ(media(with(kGrid)), media(with(kGrid + "\"string freeflight\" \"auto\"")));
+  // The one that flies under any law.
+  const std::string law = kGrid + "\"string law\" \"pinknoise\" ";
+  EXPECT_EQ(media(with(law)), media(with(law + "\"string freeflight\" \"regular\"")));
   expectMistakes(
       {{kGrid + "\"string freeflight\" \"detla\"",
         "unknown free-flight sampler \"detla\"; did you mean \"delta\"?", ""},
+       {kGrid + "\"string freeflight\" \"auot\"", "did you mean \"auto\"?", ""},
+       {kGrid + "\"string freeflight\" \"delta\" \"string law\" \"pinknoise\"",
+        "the free flights of \"delta\" follow exponential; for a medium that scatters, the law \"pinknoise\" "
+        "is "
+        "served by ray-marching, regular",
+        ""},
+       {kPerlin + "\"string law\" \"pinknoise\"",
+        "the free flights of \"weighted-delta\" follow exponential; for a medium that scatters", ""},
        {single + "\"string model\" \"adaptiv\"", "\"model\": found \"adaptiv\", expected one of", ""},
        {kGrid + "\"string freeflight\" \"delta\" \"float boundscale\" 2", "unknown parameter \"boundscale\"",
         ""}},
@@ -80,7 +92,7 @@ TEST(ConstructPattern, ChangesTheImageOfItsPixelsOnly) {
         "Sampler \"random\" \"integer pixelsamples\" 4 Integrator \"volpath\" LookAt .5 .5 -3  .5 .5 0  0 1 "
         "0 "
         "Camera \"perspective\" \"float fov\" 20 WorldBegin LightSource \"infinite\" MakeNamedMedium \"m\" " +
-        kGrid + pattern +
+        kGrid + "\"string transmittance\" \"ratio\" " + pattern +
         " MediumInterface \"m\" \"\" Material \"\" Shape \"sphere\" \"float radius\" 2 WorldEnd");
   };
   const Numbers plain = rendered(make(""));

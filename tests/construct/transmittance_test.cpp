@@ -62,6 +62,27 @@ TEST(ConstructTransmittance, TheBaseOfAnEstimatorBringsItsParameters) {
             media(with(gamma + "\"string base\" \"johnson\" \"integer n\" 50")));
 }
 
+TEST(ConstructTransmittance, IsAutomaticWhereNobodyNamesIt) {
+  const auto described = [](const std::string& parameters) { return mediumOf(with(parameters))->describe(); };
+  const auto has = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text << " has no " << part;
+  };
+  has(described(""), "estimator regular (auto)");
+  EXPECT_EQ(described(""), described("\"string transmittance\" \"auto\""));
+  EXPECT_EQ(described("").find("law"), std::string::npos);
+  // Parameters alone are those of ratio tracking.
+  has(described("\"float roulettethreshold\" .5"), "estimator ratio,");
+  // Nothing is known of bounds that are learned.
+  has(described("\"string bounds\" \"progressive\""), "estimator ratio (auto)");
+  // A law is served.
+  has(described("\"string law\" \"pinknoise\""), "estimator regular (law pinknoise)");
+  has(mediumOf(
+          attemptWorld("MakeNamedMedium \"m\" \"string type\" \"perlin\" \"rgb sigma_s\" [ 0 0 0 ] "
+                       "\"string law\" \"davis\" MediumInterface \"m\" \"\" Material \"\" Shape \"sphere\""))
+          ->describe(),
+      "estimator debiased-ray-marching (law davis)");
+}
+
 TEST(ConstructTransmittance, SaysWhatIsWrong) {
   expectMistakes(
       {{"\"string transmittance\" \"ratoi\"", "unknown estimator \"ratoi\"; did you mean \"ratio\"?", ""},
@@ -71,14 +92,16 @@ TEST(ConstructTransmittance, SaysWhatIsWrong) {
         "found -1, expected a whole number at least 0", ""},
        {"\"string transmittance\" \"regular\" \"float roulettethreshold\" 0.5",
         "unknown parameter \"roulettethreshold\"", ""},
-       {"\"string law\" \"pinknoise\"",
+       {"\"string transmittance\" \"ratio\" \"string law\" \"pinknoise\"",
         "estimator \"ratio\" serves exponential; the law \"pinknoise\" is served by", ""},
        {"\"string transmittance\" \"regular\" \"string law\" \"pinknose\"", "did you mean \"pinknoise\"?",
         ""},
        {"\"string transmittance\" \"regular\" \"string law\" \"pinknoise\" \"float correlation\" -1",
         "\"correlation\": found -1, expected a number", ""},
-       {"\"string transmittance\" \"regular\" \"string law\" \"linear\" \"rgb sigma_s\" [ 1 1 1 ]",
-        "free flights follow the exponential law only", ""}},
+       {"\"string transmittance\" \"auto\" \"float roulettethreshold\" 0.5",
+        "unknown parameter \"roulettethreshold\"", ""},
+       {"\"float roulettethreshold\" 2", "found 2, expected a number 0 to 1", ""},
+       {"\"string transmittance\" \"aut\"", "did you mean \"auto\"?", ""}},
       with);
 }
 

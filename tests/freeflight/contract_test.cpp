@@ -22,10 +22,10 @@ constexpr std::uint64_t kSeed = 20241125;
 
 template <std::size_t N>
 FlightSample<N> run(const AnySampler& sampler, const ContractLine& line, const Channels<N>& sigmaT, Rng& rng,
-                    double albedo = .8) {
+                    double albedo = .8, const AnyLaw* law = nullptr) {
   return std::visit(
       [&](const auto& held) {
-        return fly(held, line, FlightQuery<N>{sigmaT, filled<N>(albedo)}, rng);
+        return fly(held, line, FlightQuery<N>{sigmaT, filled<N>(albedo), filled<N>(1), law}, rng);
       },
       sampler);
 }
@@ -92,15 +92,15 @@ TEST_P(SamplerContract, CountsEveryLookup) {
   EXPECT_EQ(lookups, line.asked());
 }
 
-/// Weighted collisions per bin and transmitted weight, against exp(-sigma F).
+/// Weighted collisions per bin and transmitted weight, against exp(-sigma F) or another law of sigma F.
 void expectFlights(const AnySampler& sampler, const ContractLine& line, const Channels<3>& sigma,
-                   double rounding) {
+                   double rounding, const AnyLaw& law = {}) {
   constexpr int kBins = 12, kN = 25000;
   Rng rng(kSeed);
   RunningStats passed[3], collided[3][kBins], alone[kBins], alonePassed;
   for (int n = 0; n < kN; ++n) {
-    const auto flight = run<3>(sampler, line, sigma, rng);
-    const auto single = run<1>(sampler, line, {sigma[2]}, rng);
+    const auto flight = run<3>(sampler, line, sigma, rng, .8, &law);
+    const auto single = run<1>(sampler, line, {sigma[2]}, rng, .8, &law);
     const auto bin = [](double s) { return std::min(kBins - 1, static_cast<int>(s / 2 * kBins)); };
     for (int b = 0; b < kBins; ++b) {
       for (std::size_t c = 0; c < 3; ++c) {
@@ -116,7 +116,9 @@ void expectFlights(const AnySampler& sampler, const ContractLine& line, const Ch
         << nameOf(sampler) << ' ' << what << ": " << test::zTest(values, truth, kSeed);
   };
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto through = [&](double s) { return std::exp(-sigma[c] * ContractLine::integralTo(s)); };
+    const auto through = [&](double s) {
+      return transmittanceOf(law, sigma[c] * ContractLine::integralTo(s));
+    };
     const std::string channel = "channel " + std::to_string(c);
     expectMean(passed[c], through(2), channel + " passed");
     for (int b = 0; b < kBins; ++b) {
@@ -136,6 +138,59 @@ TEST_P(SamplerContract, FliesAsTheDensitySays) {
       expectFlights(sampler, ContractLine(looseness, looseness > 2), {0, 1, 3}, rounding);
     }
   }
+}
+
+TEST_P(SamplerContract, FliesUnderEveryLawThatItServes) {
+  int served = 0;
+  for (const std::string_view name : lawNames()) {
+    const AnyLaw law = *findLaw(name);
+    if (!traits_.laws.has(law)) continue;
+    ++served;
+    const double rounding = traits_.bias == EstimatorTraits::Bias::Unbiased ? 1e-6 : 4e-3;
+    expectFlights(sampler_, ContractLine(), {0, 1, 3}, rounding, law);
+  }
+  EXPECT_TRUE(served == 1 || served == static_cast<int>(lawNames().size()));
+}
+
+TEST_P(SamplerContract, GivesEveryImportanceTheSameMeans) {
+  for (const Channels<3>& throughput : {Channels<3>{1, 1, 1}, {0, .1, -5}, {2, 0, 1}, {0, 0, 3}}) {
+    const FlightQuery<3> query{{.2, 1, 3}, filled<3>(.8), importanceOf(throughput)};
+    Rng rng(kSeed);
+    RunningStats passed[3];
+    double largest = 0;
+    for (int n = 0; n < 40000; ++n) {
+      const auto flight =
+          std::visit([&](const auto& held) { return fly(held, ContractLine(), query, rng); }, sampler_);
+      double mean = 0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        passed[c].add(flight.collided ? 0 : flight.weight[c]);
+        mean += flight.weight[c] * query.importance[c] / 3;
+      }
+      largest = std::max(largest, mean);
+    }
+    // Weighed as the path weighs them, the channels' weights are 1 on the mean.
+    if (traits_.unitWeights) {
+      EXPECT_NEAR(largest, 1, 1e-9);
+    }
+    const double rounding = traits_.bias == EstimatorTraits::Bias::Unbiased ? 1e-6 : 4e-3;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double truth = throughput[c] != 0 ? std::exp(-query.sigmaT[c] * ContractLine::integralTo(2)) : 0;
+      EXPECT_LE(std::abs(passed[c].mean() - truth), kMaxAbsZ * passed[c].standardError() + rounding)
+          << "channel " << c << ": " << test::zTest(passed[c], truth, kSeed);
+    }
+  }
+}
+
+TEST(FlightContract, TheTestSeesAnotherLaw) {
+  const AnyLaw flown = LinearLaw{4}, claimed = LinearLaw{3};
+  Rng rng(kSeed);
+  RunningStats passed;
+  for (int n = 0; n < 25000; ++n) {
+    passed.add(run<1>(RegularFlight{}, ContractLine(), {2}, rng, .8, &flown).collided ? 0 : 1);
+  }
+  const double depth = 2 * ContractLine::integralTo(2);
+  EXPECT_LT(std::abs(test::zTest(passed, transmittanceOf(flown, depth), kSeed).z()), kMaxAbsZ);
+  EXPECT_GT(std::abs(test::zTest(passed, transmittanceOf(claimed, depth), kSeed).z()), kMaxAbsZ);
 }
 
 TEST_P(SamplerContract, StaysRightUnderALowControlIfItSaysSo) {

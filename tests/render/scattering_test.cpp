@@ -38,6 +38,55 @@ TEST(WhiteFurnace, IsOneInAVaryingMediumForEveryAsymmetry) {
   }
 }
 
+TEST(WhiteFurnace, IsOneUnderEveryLaw) {
+  // Flights and transmittance know the law each in its own way; in a furnace they must agree.
+  for (const std::string law : {"\"pinknoise\" \"float correlation\" 1.5", "\"davis\" \"float beta\" .5",
+                                "\"linear\" \"float extent\" 4", "\"mixture\" \"float thin\" .1"}) {
+    std::string medium = bumpyMedium(1, .3);
+    medium.pop_back();
+    const std::string scene =
+        pencil(6, 64, "\"volpath\" \"integer maxdepth\" 2000", "LookAt 0 0 -4  0 0 0  0 1 0", 1.2) +
+        "WorldBegin\n" + kWhiteEnvironment + medium + " \"string law\" " + law + "\n" +
+        mediumBox("m", {-1, -1, -1}, {1, 1, 1}) + "WorldEnd\n";
+    const ZTest test = zTestOfMean(scene, 1.0);
+    EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << law << ": " << test;
+    EXPECT_LT(test.standardError, 0.02) << law;
+  }
+}
+
+TEST(Laws, DimWhatIsSeenThroughThem) {
+  // Cubes of optical depth 2: absorbing, and scattering into the dark.
+  for (const auto& [law, truth] : {std::pair<std::string, double>{"\"linear\" \"float extent\" 4", .5},
+                                   {"\"pinknoise\" \"float correlation\" 1", 1 / 3.0},
+                                   {"\"exponential\"", std::exp(-2)}}) {
+    for (const bool scatters : {false, true}) {
+      const std::string coefficients = scatters ? "\"rgb sigma_s\" [ 1 1 1 ] \"rgb sigma_a\" [ 0 0 0 ] "
+                                                : "\"rgb sigma_s\" [ 0 0 0 ] \"rgb sigma_a\" [ 1 1 1 ] ";
+      // Depth 0: what passes without scattering.
+      const std::string scene =
+          pencil(6, 256, "\"volpath\" \"integer maxdepth\" 0", "LookAt 0 0 -4  0 0 0  0 1 0") +
+          "WorldBegin\n" + kWhiteEnvironment +
+          "MakeNamedMedium \"m\" \"string type\" \"heterogeneous\" \"integer nx\" 1 \"integer ny\" 1 "
+          "\"integer nz\" 1 "
+          "\"string border\" \"clamp\" \"point p0\" [ -1 -1 -1 ] \"point p1\" [ 1 1 1 ] \"float density\" "
+          "1 " +
+          coefficients + "\"string law\" " + law + "\n" + mediumBox("m", {-1, -1, -1}, {1, 1, 1}) +
+          "WorldEnd\n";
+      std::string deeper = scene;
+      deeper.replace(deeper.find("maxdepth\" 0"), 11, "maxdepth\" 3");
+      // Rays of the pencil are not quite parallel: 1e-3.
+      EXPECT_NEAR(zTestOfMean(scene, truth).mean, truth, 1e-3) << law;
+      // An absorber's image does not depend on the depth of paths; a scatterer's gains light.
+      const ZTest more = zTestOfMean(deeper, truth);
+      if (scatters) {
+        EXPECT_GT(more.mean, truth + .1) << law;
+      } else {
+        EXPECT_NEAR(more.mean, truth, 1e-3) << law;
+      }
+    }
+  }
+}
+
 class ConstantFurnace : public testing::TestWithParam<Storage> {};
 
 TEST_P(ConstantFurnace, IsOneForEveryAsymmetryInEveryStorage) {

@@ -47,6 +47,42 @@ TEST(Law, StartsAtOneAndFallsWithinTheUnitIntervalOverTheWholeLadder) {
   }
 }
 
+TEST(Law, HasTheDensityThatItsFallIs) {
+  for (const AnyLaw& law : manyLaws()) {
+    for (const double depth : {1e-3, .1, .7, 3., 20.}) {
+      // Central differences; the linear law has a kink at its extent.
+      const double h = 1e-4 * depth;
+      const auto* linear = std::get_if<LinearLaw>(&law);
+      if (linear && std::abs(depth - linear->extent) < 2 * h) continue;
+      const double slope = (transmittanceOf(law, depth - h) - transmittanceOf(law, depth + h)) / (2 * h);
+      EXPECT_NEAR(collisionDensityOf(law, depth), slope, 1e-6 * std::abs(slope) + 1e-9 / depth)
+          << nameOf(law) << " at " << depth;
+    }
+    EXPECT_EQ(collisionDensityOf(law, kInfinite), 0) << nameOf(law);
+    for (const double depth : kLadder) {
+      const double density = collisionDensityOf(law, depth);
+      EXPECT_TRUE(density >= 0 && std::isfinite(density))
+          << nameOf(law) << " at " << depth << ": " << density;
+    }
+  }
+}
+
+TEST(Law, IsReachedAtTheDepthOfAFlight) {
+  for (const AnyLaw& law : manyLaws()) {
+    EXPECT_EQ(depthReachedOf(law, 1), 0) << nameOf(law);
+    for (const double u : {1e-12, 1e-3, .2, .5, .9, .999}) {
+      const double depth = depthReachedOf(law, u);
+      ASSERT_TRUE(depth >= 0) << nameOf(law) << " at " << u;
+      if (std::isinf(depth)) {
+        // A part of the light that nothing dims, or a law that falls too slowly for numbers.
+        EXPECT_GE(transmittanceOf(law, 1e308), u * (1 - 1e-9)) << nameOf(law);
+      } else {
+        EXPECT_NEAR(transmittanceOf(law, depth), u, 1e-9 * u + 1e-15) << nameOf(law) << " at " << u;
+      }
+    }
+  }
+}
+
 TEST(Law, AnswersNegativeDepthsOfCorrectedQuadrature) {
   EXPECT_EQ(transmittanceOf(ExponentialLaw{}, -.5), std::exp(.5));
   for (const AnyLaw& law : manyLaws()) {
