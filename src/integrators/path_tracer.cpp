@@ -62,10 +62,11 @@ Rgb PathTracer::finish(Event event) {
 /// on the way. Crossings cost no depth and no roulette.
 PathTracer::Event PathTracer::travel() {
   if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters() && !setup_.mediaEmit) return Event::End;
-  return travelOn({LineWalk(setup_.scene, ray_, Exclusions(rayStart_)), startPlane_});
+  Travel way{LineWalk(setup_.scene, ray_, Exclusions(rayStart_)), startPlane_};
+  return travelOn(way);
 }
 
-PathTracer::Event PathTracer::travelOn(Travel way) {
+PathTracer::Event PathTracer::travelOn(Travel& way) {
   auto& [walk, start, t] = way;
   const auto fits = [&](const SceneHit& h) {
     return !setup_.media || setup_.media->fits(state_, h, setup_.scene.surface(h, ray_), ray_.d);
@@ -173,7 +174,8 @@ void PathTracer::followChannels(const Travel& way) {
     one.radiance_ = Rgb();
     one.beta_ = Rgb();
     one.beta_[c] = beta_[c];
-    radiance_ += one.finish(one.travelOn({LineWalk(way.walk, one.ray_), way.start, way.t}));
+    Travel rest{LineWalk(way.walk, one.ray_), way.start, way.t};
+    radiance_ += one.finish(one.travelOn(rest));
   }
 }
 

@@ -58,7 +58,7 @@ class PathTracer {
   Rgb finish(Event event);
   // Each path event is one function. Those that return bool tell whether the path goes on.
   Event travel();
-  Event travelOn(Travel way);
+  Event travelOn(Travel& way);
   bool passMedium(const Travel& way, double tMax, const SceneHit* hit, Event& event);
   bool splitsChannels() const;
   void followChannels(const Travel& way);

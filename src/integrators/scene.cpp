@@ -126,10 +126,4 @@ std::vector<std::vector<const Primitive*>> Scene::primitiveGroups() const {
   return groups;
 }
 
-std::size_t Scene::acceleratorBytes() const {
-  std::size_t bytes = parts_->top.accelerator.memoryBytes();
-  for (const Parts::Group& object : parts_->objects) bytes += object.accelerator.memoryBytes();
-  return bytes;
-}
-
 }  // namespace pbrtmedia

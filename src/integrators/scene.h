@@ -104,8 +104,6 @@ class Scene {
   bool hasVisibleEmitters() const { return hasVisibleEmitters_; }
   /// Primitives in groups: those placed directly, then those of every object.
   std::vector<std::vector<const Primitive*>> primitiveGroups() const;
-  /// Bytes the ray-tracing structures hold.
-  std::size_t acceleratorBytes() const;
 
  private:
   friend class SceneBuilder;

@@ -96,10 +96,6 @@ class BoundProfile {
     const double s = at->sEnter + (amount - before(*at, weight)) / densityOf(*at, weight);
     return {std::clamp(s, at->sEnter, at->sExit), &*at};
   }
-  /// Integral of the majorant over [0, s]; `piece` holds s.
-  static double upperUntil(const BoundPiece& piece, double s) {
-    return piece.upperBefore + (s - piece.sEnter) * piece.upper;
-  }
 
  private:
   alignas(BoundPiece) std::array<std::byte, kInPlace * sizeof(BoundPiece)> buffer_;
