@@ -18,8 +18,9 @@ struct ProfileOptions {
   std::string picture;     ///< image file to plot into; empty: none
 };
 
-/// `medialab profile`. One line: the extinction and its controls along it (kind "field"), and where one estimate
-/// of each estimator looked, in the order of its look-ups (kind: the estimator). Extinctions in 1 / length.
+/// `medialab profile`. One line: the extinction and its controls along it (kind "field"), and where one
+/// estimate of each estimator looked, in the order of its look-ups (kind: the estimator). Extinctions in 1 /
+/// length.
 int runProfile(const ProfileOptions& options);
 
 }  // namespace pbrtmedia
