@@ -44,6 +44,28 @@ TEST(CameraMedium, IsFoundThroughOpaqueSurfaces) {
   EXPECT_EQ(CameraMedium(*scene, {0, 0, 0}, 0).state().describe(), "\"fog\"");
 }
 
+TEST(CameraMedium, SaysWhenBoundariesDoNotAgree) {
+  // Between two wide squares that name what is between them.
+  const auto between = [](bool alike) {
+    SceneKit kit;
+    const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
+    const Medium* mist = kit.fog("mist", Rgb(1), Rgb(0));
+    kit.builder.addPrimitive({.shape = kit.square(-2, 500), .media = {nullptr, fog}});
+    kit.builder.addPrimitive({.shape = kit.square(3, 500), .media = {alike ? fog : mist, nullptr}});
+    const auto scene = kit.finish();
+    const CameraMedium camera(*scene, {0, 0, 0}, 0);
+    return std::pair{camera.state().describe(), camera.warnings()};
+  };
+  const auto [medium, warnings] = between(false);
+  EXPECT_TRUE(medium == "\"fog\"" || medium == "\"mist\"") << medium;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("do not agree"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("directions say " + medium), std::string::npos) << warnings[0];
+  const auto [same, none] = between(true);
+  EXPECT_EQ(same, "\"fog\"");
+  EXPECT_TRUE(none.empty());
+}
+
 TEST(CameraMedium, GivenIsUsedAndAContradictionNamesBoth) {
   SceneKit kit;
   const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
