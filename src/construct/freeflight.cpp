@@ -19,7 +19,7 @@ std::string samplersThatServe(const AnyLaw& law) {
 
 }  // namespace
 
-AnySampler readFreeFlight(ParamReader& in, const AnyLaw& law, bool inPieces, bool scatters) {
+AnySampler readFreeFlight(ParamReader& in, const AnyLaw& law, bool walksPieces, bool scatters) {
   AnySampler sampler;
   const std::optional<std::string> name = in.optionalString("freeflight");
   if (std::optional<AnySampler> found = findSampler(name.value_or("auto"))) {
@@ -30,7 +30,7 @@ AnySampler readFreeFlight(ParamReader& in, const AnyLaw& law, bool inPieces, boo
     in.error(ParamKind::String, "freeflight",
              "unknown free-flight sampler \"" + *name + "\"" + suggestion(*name, names));
   }
-  if ((!name || *name == "auto") && inPieces && scatters && !traitsOf(sampler).laws.has(law)) {
+  if ((!name || *name == "auto") && walksPieces && scatters && !traitsOf(sampler).laws.has(law)) {
     sampler = RegularFlight{};
   }
   readParameters(in, sampler);

@@ -7,10 +7,10 @@
 namespace pbrtmedia {
 
 /// Reads `"string freeflight"` with the parameters of the sampler it names, from a medium. `law`: that of its
-/// transmittance. "auto" is the default sampler, than which no other was faster at equal variance in any
-/// scene measured, and under a law that it does not serve regular tracking, if the density is `inPieces`.
-/// Errors name the samplers or words that would have been right; a biased sampler is worth a warning.
-/// `scatters`: else no flight is flown and any sampler will do.
-AnySampler readFreeFlight(ParamReader& in, const AnyLaw& law, bool inPieces, bool scatters);
+/// transmittance. "auto" is the default sampler, than which no other was clearly faster at equal variance in
+/// any scene measured, and under a law that it does not serve regular tracking, if it `walksPieces`. Errors
+/// name the samplers or words that would have been right; a biased sampler is worth a warning. `scatters`:
+/// else no flight is flown and any sampler will do.
+AnySampler readFreeFlight(ParamReader& in, const AnyLaw& law, bool walksPieces, bool scatters);
 
 }  // namespace pbrtmedia

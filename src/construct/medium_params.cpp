@@ -68,15 +68,16 @@ void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, Den
                            FieldMediumParams& p) {
   readMediumParams(in, medium, p);
   const bool inPieces = kind == DensityKind::InPieces;
-  p.estimator = readTransmittance(in, inPieces);
+  p.bounds = readBounds(in, p.bounds.source);
+  const bool walksPieces = inPieces && p.bounds.source == BoundsParams::Source::Exact;
+  p.estimator = readTransmittance(in, walksPieces);
   const AnyLaw law = p.estimator ? lawOf(*p.estimator) : AnyLaw();
   if (!std::holds_alternative<ExponentialLaw>(law) && !p.le.isBlack()) {
     in.error(ParamKind::String, "law", "a medium that emits (Le) follows the exponential law only");
   }
-  p.sampler = readFreeFlight(in, law, inPieces, p.sigmaS.max() > 0);
+  p.sampler = readFreeFlight(in, law, walksPieces, p.sigmaS.max() > 0);
   p.pattern =
       static_cast<PatternKind>(in.findChoice("pattern", kPatternNames, static_cast<std::size_t>(p.pattern)));
-  p.bounds = readBounds(in, p.bounds.source);
   if (const float sigmaT = (p.sigmaA + p.sigmaS).max();
       sigmaT > 0 && !std::isfinite(p.bounds.majorant / sigmaT)) {
     in.error(ParamKind::Float, "majorant", "divided by the largest sigma_t it is no finite density");

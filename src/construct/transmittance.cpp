@@ -23,7 +23,7 @@ const RatioTracking kEstimatorByParameters{.rouletteThreshold = 0.3};
 
 }  // namespace
 
-std::optional<AnyEstimator> readTransmittance(ParamReader& in, bool inPieces) {
+std::optional<AnyEstimator> readTransmittance(ParamReader& in, bool walksPieces) {
   const std::optional<std::string> name = in.optionalString("transmittance");
   bool isAuto = !name || *name == "auto";
   AnyEstimator estimator = kEstimatorByParameters;
@@ -46,7 +46,7 @@ std::optional<AnyEstimator> readTransmittance(ParamReader& in, bool inPieces) {
       readParameters(in, *law);
       if (isAuto && !traitsOf(estimator).laws.has(*law)) {
         isAuto = false;
-        estimator = inPieces ? AnyEstimator(RegularTracking{}) : AnyEstimator(DebiasedRayMarching{});
+        estimator = walksPieces ? AnyEstimator(RegularTracking{}) : AnyEstimator(DebiasedRayMarching{});
       }
       if (!setLaw(estimator, *law)) {
         std::string text = "estimator \"";

@@ -68,6 +68,12 @@ TEST(ConstructFreeFlight, ParametersHaveTheirEffectAndMistakesAreTold) {
   // The one that flies under any law.
   const std::string law = kGrid + "\"string law\" \"pinknoise\" ";
   EXPECT_EQ(media(with(law)), media(with(law + "\"string freeflight\" \"regular\"")));
+  // Bounds that cut across voxels leave the choice to the scene, without talk of what it never named.
+  const Attempt learned = with(law + "\"string bounds\" \"progressive\"");
+  EXPECT_FALSE(learned.made);
+  EXPECT_NE(learned.messages().find("is served by ray-marching, regular"), std::string::npos);
+  EXPECT_EQ(learned.messages().find("goes from voxel to voxel"), std::string::npos) << learned.messages();
+  EXPECT_TRUE(with(law + "\"string bounds\" \"progressive\" \"string freeflight\" \"ray-marching\"").made);
   expectMistakes(
       {{kGrid + "\"string freeflight\" \"detla\"",
         "unknown free-flight sampler \"detla\"; did you mean \"delta\"?", ""},
