@@ -252,6 +252,11 @@ std::string SourceLocation::toString() const {
   return s;
 }
 
+void Diagnostics::tolerated(const SourceLocation& at, std::string message) {
+  if (!message.empty()) message += strict ? " [--strict]" : " [an error with --strict]";
+  add(strict ? Severity::Error : Severity::Warning, at, std::move(message));
+}
+
 void Diagnostics::add(Severity severity, const SourceLocation& at, std::string message) {
   if (severity == Severity::Error) ++errors_;
   if (isFull()) {

@@ -55,12 +55,11 @@ class Diagnostics {
   void add(Severity severity, const SourceLocation& at, std::string message);
   void add(const SceneError& e) { error(e.location(), e.what()); }
 
-  /// --lenient: problems that PBRT-v3 only warns about are reported through `lenientError`.
-  bool lenient = false;
-  /// A warning when `lenient`, else an error: unknown parameters and plugins and their like.
-  void lenientError(const SourceLocation& at, std::string message) {
-    add(lenient ? Severity::Warning : Severity::Error, at, std::move(message));
-  }
+  /// --strict: what `tolerated` reports is an error.
+  bool strict = false;
+  /// A problem that PBRT-v3 renders in spite of: a warning, an error when `strict`; either way the message says
+  /// that --strict decides.
+  void tolerated(const SourceLocation& at, std::string message);
 
   /// Keeps the text of an input that cannot be read again (standard input), for excerpts.
   void keepText(const std::string& shownName, std::string text) { kept_[shownName] = std::move(text); }

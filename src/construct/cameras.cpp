@@ -108,8 +108,8 @@ std::unique_ptr<Camera> readCamera(SceneDescription& scene, Point2i fullResoluti
   if (!entity.given) entity.type = "perspective";
   const auto* plugin = findPlugin<ReadCamera>(kCameras, entity, "Camera", diagnostics);
   if (plugin == nullptr) {
-    // There is no picture without a camera, --lenient or not.
-    if (diagnostics.lenient)
+    // There is no picture without a camera, --strict or not.
+    if (!diagnostics.strict)
       diagnostics.error(entity.typeLocation, "Camera: nothing can be rendered without a camera");
     return nullptr;
   }

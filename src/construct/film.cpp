@@ -67,8 +67,8 @@ std::unique_ptr<Filter> readFilter(Entity& entity, Diagnostics& diagnostics) {
   if (!entity.given) return std::make_unique<BoxFilter>(BoxFilter::Params{});
   const auto* plugin = findPlugin<ReadFilter>(kFilters, entity, "PixelFilter", diagnostics);
   if (plugin == nullptr) {
-    // PBRT-v3 ends here, so there is no image that --lenient could mean.
-    if (diagnostics.lenient)
+    // PBRT-v3 ends here, so there is no image that could be meant.
+    if (!diagnostics.strict)
       diagnostics.error(entity.typeLocation, "PixelFilter: nothing can be rendered without a filter");
     return nullptr;
   }

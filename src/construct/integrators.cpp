@@ -109,7 +109,7 @@ std::optional<IntegratorPlan> readIntegrator(SceneDescription& scene, Diagnostic
   if (!entity.given) entity.type = "path";
   const auto* plugin = findPlugin<ReadIntegrator>(kIntegrators, entity, "Integrator", diagnostics);
   if (plugin == nullptr) {
-    if (diagnostics.lenient) {
+    if (!diagnostics.strict) {
       diagnostics.error(entity.typeLocation, "Integrator: nothing can be rendered without an integrator");
     }
     return std::nullopt;

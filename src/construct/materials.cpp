@@ -225,8 +225,8 @@ Materials::Materials(SceneDescription& scene, Textures& textures, Diagnostics& d
     Texturable texturable(in, d.scope);
     const auto* plugin =
         findPlugin<ReadMaterial>(kMaterials, d, d.name.empty() ? "Material" : context, diagnostics);
-    if (plugin == nullptr && !diagnostics.lenient) continue;  // reported; its parameters mean nothing
-    // PBRT-v3 makes a matte of an unknown material; that is what --lenient gives.
+    if (plugin == nullptr && diagnostics.strict) continue;  // reported; its parameters mean nothing
+    // PBRT-v3 makes a matte of an unknown material.
     plans_[i] = plugin != nullptr ? plugin->read(texturable) : readMatte(texturable);
     in.reportUnused();
   }
@@ -259,7 +259,7 @@ Materials::Use Materials::readForShape(const ShapeDescription& shape, ParamReade
   for (const auto& plugin : kMaterials) {
     if (plugin.name == d.type) read = &plugin.read;
   }
-  if (read == nullptr && !diagnostics.lenient) {
+  if (read == nullptr && diagnostics.strict) {
     for (const Param& param : shape.params.all())
       param.used = true;  // nobody can tell whether they are right
     return use;

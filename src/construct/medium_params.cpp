@@ -22,7 +22,7 @@ void readMediumParams(ParamReader& in, const MediumDescription& medium, MediumPa
     } else {
       std::vector<std::string_view> names;
       for (const MediumPreset& known : mediumPresets()) names.push_back(known.name);
-      in.diagnostics().lenientError(
+      in.diagnostics().tolerated(
           in.locationOf(ParamKind::String, "preset"),
           in.context() + ": unknown preset \"" + *name + "\"" + suggestion(*name, names));
     }

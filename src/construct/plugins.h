@@ -31,7 +31,7 @@ const Plugin<Read>* findPlugin(std::span<const Plugin<Read>> table, const Entity
     names.push_back(plugin.name);
   }
   const bool hasTypeLocation = entity.typeLocation.file != nullptr;
-  diagnostics.lenientError(
+  diagnostics.tolerated(
       hasTypeLocation ? entity.typeLocation : entity.location,
       std::string(kind) + ": unknown type \"" + entity.type + "\"" + suggestion(entity.type, names));
   return nullptr;

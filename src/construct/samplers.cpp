@@ -122,7 +122,7 @@ std::unique_ptr<Sampler> readSampler(SceneDescription& scene, const ConstructOpt
   if (!entity.given) entity.type = "halton";
   const auto* plugin = findPlugin<ReadSampler>(kSamplers, entity, "Sampler", diagnostics);
   if (plugin == nullptr) {
-    if (diagnostics.lenient)
+    if (!diagnostics.strict)
       diagnostics.error(entity.typeLocation, "Sampler: nothing can be rendered without a sampler");
     return nullptr;
   }

@@ -39,7 +39,7 @@ std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, std::string_vie
     return std::nullopt;
   }
   if (param->size() > 1) {
-    in.diagnostics().lenientError(in.locationOf(kKind, name),
+    in.diagnostics().tolerated(in.locationOf(kKind, name),
                                   in.context() + ": parameter \"" + std::string(name) + "\": found " +
                                       std::to_string(param->size()) + " values, expected 1");
   }

@@ -240,7 +240,7 @@ Textures::Textures(SceneDescription& scene, Diagnostics& diagnostics) : scene_(s
     const std::string kind = std::string(isFloat ? "float" : "spectrum") + " texture \"" + d.name + "\"";
     const auto* plugin = isFloat ? findPlugin<ReadTexture>(kFloatTextures, d, kind, diagnostics)
                                  : findPlugin<ReadTexture>(kRgbTextures, d, kind, diagnostics);
-    if (plugin == nullptr) continue;  // with --lenient its users take their defaults, as in PBRT-v3
+    if (plugin == nullptr) continue;  // its users take their defaults, as in PBRT-v3
     if (d.ctm->isAnimated()) {
       diagnostics.warning(d.location,
                           kind + ": textures do not move; the transformation of the start time is used");

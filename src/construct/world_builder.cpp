@@ -97,7 +97,7 @@ void WorldBuilder::buildMedia(SceneBuilder& builder) {
       report_.push_back("medium \"" + scene_.media[i].name + "\": not used, left out");
       continue;
     }
-    if (!mediumPlans_[i]) continue;  // an unknown type with --lenient: vacuum, as in PBRT-v3
+    if (!mediumPlans_[i]) continue;  // an unknown type: vacuum, as in PBRT-v3
     usesMedia_ = true;
     if (!withMedia_) continue;
     media_[i] = builder.addMedium((*mediumPlans_[i])(textures_));

@@ -110,9 +110,11 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
       ->group(render);
 
   const std::string checks = "Checks";
-  app.add_flag("--lenient", options.lenient, "unknown parameters and plugins are warnings, as in PBRT-v3")
+  app.add_flag("--lenient", options.lenient,
+               "the default, kept as a word: what PBRT-v3 renders is rendered, with warnings")
       ->group(checks);
   app.add_flag("--strict", options.strict,
+               "what PBRT-v3 renders in spite of a mistake is an error; "
                "exit with 2 when samples were dropped or a density bound was violated")
       ->group(checks);
 

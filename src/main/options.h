@@ -24,7 +24,7 @@ struct Options {
   bool quiet = false;
   bool cat = false;
   bool toPly = false;
-  bool lenient = false;
+  bool lenient = false;  ///< asks for the default; kept because scripts say it
   bool strict = false;
   bool verbose = false;
   std::optional<std::int64_t> samplesPerPixel;

@@ -51,7 +51,7 @@ std::string sceneNames(const Options& options) {
 
 int printScenes(const Options& options) {
   Diagnostics diagnostics;
-  diagnostics.lenient = options.lenient;
+  diagnostics.strict = options.strict;
   PrintOptions print;
   print.meshesToPly = options.toPly;
   if (const char* prefix = std::getenv("PLY_PREFIX")) print.plyPrefix = prefix;
@@ -128,7 +128,7 @@ RenderStatistics renderWorld(SceneDescription& description, const std::string& n
 
   const Stopwatch constructing;
   Diagnostics diagnostics;
-  diagnostics.lenient = options.lenient;
+  diagnostics.strict = options.strict;
   const ConstructOptions build{
       .outfile = options.outfile,
       .cropWindow = options.cropWindow,
@@ -194,7 +194,7 @@ int runPbrt(const Options& options) {
 
   const Stopwatch parsing;
   Diagnostics diagnostics;
-  diagnostics.lenient = options.lenient;
+  diagnostics.strict = options.strict;
   std::vector<SceneDescription> worlds = parseFiles(options.scenes, diagnostics);
   const PhaseTime parseTime = parsing.elapsed();
   if (worlds.empty() && !diagnostics.hasErrors()) {

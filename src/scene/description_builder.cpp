@@ -55,12 +55,12 @@ std::string_view beginOf(Directive opener) {
 
 void DescriptionBuilder::apply(Statement s) {
   if (s.info->block == Block::World && !inWorld_) {
-    return diagnostics_.lenientError(
+    return diagnostics_.tolerated(
         s.at,
         std::string(s.info->name) + " belongs between WorldBegin and WorldEnd; PBRT-v3 ignores it here");
   }
   if (s.info->block == Block::Options && inWorld_) {
-    return diagnostics_.lenientError(
+    return diagnostics_.tolerated(
         s.at, std::string(s.info->name) + " belongs before WorldBegin; PBRT-v3 ignores it here");
   }
   switch (s.info->id) {
@@ -189,7 +189,7 @@ void DescriptionBuilder::coordSysTransform(const Statement& s) {
     state_.ctm = it->second;
     return;
   }
-  diagnostics_.lenientError(s.strings[0].at,
+  diagnostics_.tolerated(s.strings[0].at,
                             "unknown coordinate system " + quotedName(s.strings[0].text) +
                                 suggestFrom(s.strings[0].text, [&] { return keysOf(coordinateSystems_); }));
 }

@@ -42,7 +42,7 @@ void ParamParser::problem(const Values& v, const SourceLocation& at, const std::
 }
 
 void ParamParser::lenientProblem(const Values& v, const SourceLocation& at, const std::string& message) {
-  diagnostics_.lenientError(at, whatOf(v) + message);
+  diagnostics_.tolerated(at, whatOf(v) + message);
 }
 
 ParamList ParamParser::parse(const InputFolders& folders) {

@@ -51,7 +51,7 @@ const T* ParamReader::scalar(ParamKind kind, std::string_view name) {
   if (!p) return nullptr;
   const auto& values = std::get<std::vector<T>>(p->values);
   if (values.size() == 1) return values.data();
-  diagnostics_.lenientError(p->valuesAt, context_ + ": parameter " + quotedName(name) + ": found " +
+  diagnostics_.tolerated(p->valuesAt, context_ + ": parameter " + quotedName(name) + ": found " +
                                              std::to_string(values.size()) + " values, expected 1");
   return nullptr;
 }
@@ -154,7 +154,7 @@ std::size_t ParamReader::findChoice(std::string_view name, std::span<const std::
   if (!word) return fallback;
   const auto it = std::find(choices.begin(), choices.end(), *word);
   if (it != choices.end()) return static_cast<std::size_t>(it - choices.begin());
-  diagnostics_.lenientError(
+  diagnostics_.tolerated(
       locationOf(ParamKind::String, name),
       context_ + ": unknown " + std::string(name) + ' ' + quotedName(*word) + suggestion(*word, choices));
   return fallback;
@@ -199,7 +199,7 @@ void ParamReader::reportUnused() {
   for (const Param& p : entity_.params.all()) {
     if (p.used) continue;
     if (diagnostics_.isFull()) {
-      diagnostics_.lenientError(p.declaredAt, {});
+      diagnostics_.tolerated(p.declaredAt, {});
       continue;
     }
     std::string kinds;
@@ -214,7 +214,7 @@ void ParamReader::reportUnused() {
       message += "unknown parameter " + quotedName(p.name);
       message += names.empty() ? "; no parameters are known here" : suggestion(p.name, names);
     }
-    diagnostics_.lenientError(p.declaredAt, std::move(message));
+    diagnostics_.tolerated(p.declaredAt, std::move(message));
   }
 }
 

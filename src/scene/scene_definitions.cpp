@@ -128,7 +128,7 @@ void DescriptionBuilder::reportMissingMedia() {
     if (later == mediaByName_.end()) {
       diagnostics_.error(missing.named, "undefined medium " + quotedName(name) + suggestFrom(name, names));
     } else {
-      diagnostics_.lenientError(missing.named, "medium " + quotedName(name) + " is used at " +
+      diagnostics_.tolerated(missing.named, "medium " + quotedName(name) + " is used at " +
                                                    missing.user.toString() + " but defined only at " +
                                                    scene_.media[later->second].location.toString() +
                                                    "; PBRT-v3 takes vacuum until then");

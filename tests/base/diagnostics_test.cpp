@@ -106,15 +106,16 @@ TEST(Diagnostics, MemoryIsBoundedAndErrorsStillCount) {
   EXPECT_NE(d.format().find("… and 7 more messages"), std::string::npos);
 }
 
-TEST(Diagnostics, LenientTurnsErrorsIntoWarnings) {
+TEST(Diagnostics, WhatIsToleratedIsAnErrorWithStrictAndSaysSo) {
   Diagnostics d;
-  d.lenientError({}, "a");
-  EXPECT_TRUE(d.hasErrors());
-  Diagnostics lenient;
-  lenient.lenient = true;
-  lenient.lenientError({}, "a");
-  EXPECT_FALSE(lenient.hasErrors());
-  EXPECT_EQ(lenient.format(), "warning: a\n");
+  d.tolerated({}, "a");
+  EXPECT_FALSE(d.hasErrors());
+  EXPECT_EQ(d.format(), "warning: a [an error with --strict]\n");
+  Diagnostics strict;
+  strict.strict = true;
+  strict.tolerated({}, "a");
+  EXPECT_TRUE(strict.hasErrors());
+  EXPECT_EQ(strict.format(), "error: a [--strict]\n");
 }
 
 constexpr std::string_view kKnown[] = {"delta", "ratio", "residual-ratio"};

@@ -44,7 +44,7 @@ struct Attempt {
 
 inline Attempt attempt(const std::string& text, const AttemptSettings& settings = {}) {
   Attempt a;
-  a.diagnostics.lenient = settings.lenient;
+  a.diagnostics.strict = !settings.lenient;
   a.worlds = parseText(text, "t.pbrt", settings.folder, a.diagnostics);
   if (a.diagnostics.hasErrors() || a.worlds.size() != 1) return a;
   a.made = construct(a.worlds.front(), settings.build, a.diagnostics);

@@ -27,7 +27,7 @@ void read(Entity& entity, Diagnostics& diagnostics) {
 
 void parse(std::string_view text, bool lenient) {
   Diagnostics diagnostics;
-  diagnostics.lenient = lenient;
+  diagnostics.strict = !lenient;
   ParseOptions options;
   options.readFiles = false;
   auto scenes = parseText(text, "fuzz", "", diagnostics, options);

@@ -20,7 +20,7 @@ struct Fixture {
       : parsed(parse("Film \"image\"\n" + std::string(params) + "\nWorldBegin WorldEnd")),
         reader(parsed.scene().film, diagnostics, "Film \"image\"") {
     EXPECT_EQ(parsed.messages(), "");
-    diagnostics.lenient = lenient;
+    diagnostics.strict = !lenient;
   }
 };
 

@@ -18,7 +18,7 @@ struct Parsed {
 
 inline Parsed parse(std::string_view text, bool lenient = false) {
   Parsed p;
-  p.diagnostics.lenient = lenient;
+  p.diagnostics.strict = !lenient;
   p.scenes = parseText(text, "t.pbrt", "", p.diagnostics);
   return p;
 }
