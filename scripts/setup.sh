@@ -33,26 +33,24 @@ install_packages() {
   "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" >&2
 }
 
-# build_preset <preset> <cmake options...> -- <ninja targets...>: configures when needed, then builds.
-build_preset() {
-  local preset=$1 options=() build
+# configure_preset <preset> <cmake options...>: once, and again when the options changed (ninja itself notices changed
+# CMake files). Options stay in the build folder until another value is given.
+configure_preset() {
+  local preset=$1 build=$root/build/$1
   shift
-  while [ $# -gt 0 ] && [ "$1" != -- ]; do
-    options+=("$1")
-    shift
-  done
-  [ $# -gt 0 ] && shift
-  build=$root/build/$preset
-  # Configure again only when the options changed; ninja itself notices changed CMake files.
-  if [ ! -f "$build/build.ninja" ] || [ "$(cat "$build/.options" 2>/dev/null)" != "${options[*]}" ]; then
-    say "configuring $preset"
-    (cd "$root" && cmake --preset "$preset" "${options[@]}" >"$build.log" 2>&1) || {
-      mkdir -p "$build"
-      cat "$build.log" >&2
-      return 1
-    }
-    printf '%s' "${options[*]}" >"$build/.options"
-  fi
+  [ -f "$build/build.ninja" ] && [ "$(cat "$build/.options" 2>/dev/null)" = "$*" ] && return 0
+  say "configuring $preset"
+  (cd "$root" && cmake --preset "$preset" "$@" >"$build.log" 2>&1) || {
+    cat "$build.log" >&2
+    return 1
+  }
+  printf '%s' "$*" >"$build/.options"
+}
+
+# build_targets <preset> <ninja targets...>: builds them, or everything.
+build_targets() {
+  local preset=$1
+  shift
   say "building $preset"
-  ninja -C "$build" -j "$(nproc)" "$@" >&2
+  ninja -C "$root/build/$preset" -j "$(nproc)" "$@" >&2
 }

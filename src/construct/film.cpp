@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <system_error>
 
+#include "base/writable.h"
 #include "construct/plugins.h"
 #include "filters/box.h"
 #include "filters/gaussian.h"
@@ -100,14 +100,9 @@ void checkOutfile(const std::filesystem::path& path, const SourceLocation& locat
                                     path.extension().string() + "\"; known: .exr, .png, .pfm, .tga");
     return;
   }
-  std::error_code error;
-  const std::filesystem::path folder =
-      path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder, error)) {
-    diagnostics.error(location,
-                      "output \"" + path.string() + "\": folder \"" + folder.string() + "\" does not exist");
-  } else if (std::filesystem::is_directory(path, error)) {
-    diagnostics.error(location, "output \"" + path.string() + "\" is a folder");
+  const std::string reason = unwritableReason(path);
+  if (!reason.empty()) {
+    diagnostics.error(location, "output \"" + path.string() + "\" cannot be written: " + reason);
   }
 }
 

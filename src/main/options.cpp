@@ -16,10 +16,10 @@ namespace {
 
 // Words that PBRT-v3 accepts with one dash as well.
 constexpr std::string_view kLongNames[] = {
-    "nthreads",  "outfile",     "cropwindow",   "quick",       "quiet",   "cat",     "toply",
-    "logdir",    "logtostderr", "minloglevel",  "v",           "help",    "spp",     "seed",
-    "stats",     "progress",    "time",         "strict",      "lenient", "verbose", "tile-size",
-    "pixeltype", "compression", "bounds-cache", "mediumparams"};
+    "nthreads",  "outfile",   "png",         "cropwindow",   "quick",       "quiet",   "cat",
+    "toply",     "logdir",    "logtostderr", "minloglevel",  "v",           "help",    "spp",
+    "seed",      "stats",     "progress",    "time",         "strict",      "lenient", "verbose",
+    "tile-size", "pixeltype", "compression", "bounds-cache", "mediumparams"};
 
 /// "-quick" and "-nthreads=2" become "--quick" and "--nthreads=2"; numbers and file names stay.
 std::string normalised(const std::string& word) {
@@ -62,6 +62,7 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
       ->group(render);
   app.add_option("--outfile", outfile, "image file; overrides the scene's (.exr .png .pfm .tga)")
       ->group(render);
+  app.add_flag("--png", options.png, "write the image as a PNG of the same name too")->group(render);
   app.add_option("--cropwindow", crop, "render only this part: fractions of the image, y down")
       ->expected(4)
       ->allow_extra_args(false)  // what follows is the scene

@@ -20,6 +20,7 @@ struct Options {
   unsigned threads = 0;                       ///< 0: one per processor
   std::optional<std::filesystem::path> outfile;
   std::optional<std::array<float, 4>> cropWindow;  ///< x0 x1 y0 y1, fractions
+  bool png = false;                                ///< write a PNG beside the image too
   bool quick = false;
   bool quiet = false;
   bool cat = false;

@@ -13,6 +13,7 @@
 #include "image/image.h"
 #include "integrators/render_loop.h"
 #include "main/kept_bounds.h"
+#include "main/output_files.h"
 #include "main/progress.h"
 #include "main/statistics_report.h"
 #include "main/version.h"
@@ -24,7 +25,7 @@
 namespace pbrtmedia {
 namespace {
 
-constexpr int kExitBadInput = 1;
+constexpr int kExitBadInput = 1;  // or an image that is not where it should be
 constexpr int kExitStrict = 2;
 
 /// Prints what has been collected; warnings and notes only when not --quiet.
@@ -102,12 +103,26 @@ RenderResult renderImage(const Construction& scene, const Options& options, cons
   return result;
 }
 
-/// Finds out before hours of rendering that a file could not be written in the end.
-void requireFolderOf(const std::string& option, const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  std::error_code ignored;
-  if (std::filesystem::is_directory(folder, ignored)) return;
-  throw SceneError({}, option + ' ' + file.string() + ": folder \"" + folder.string() + "\" does not exist");
+/// Writes what was rendered, a PNG beside it if that is wanted, and says where the files are. Sets `status`
+/// when an image is not where it should be.
+void writeRendered(const std::filesystem::path& outfile, const Image& image, const Options& options,
+                   int& status) {
+  std::vector<std::filesystem::path> wanted = {outfile};
+  if (options.png && outfile.extension() != ".png") {
+    wanted.push_back(outfile);
+    wanted.back().replace_extension(".png");
+  }
+  std::string written;
+  for (const std::filesystem::path& file : wanted) {
+    const SavedImage saved = saveImage(file, image, options.write);
+    if (!saved.problem.empty()) {
+      std::cerr << "pbrt: error: " << saved.problem << "; the image is in \"" << saved.file.string()
+                << "\" instead\n";
+      status = kExitBadInput;
+    }
+    written += (written.empty() ? "" : " and ") + saved.file.string();
+  }
+  if (!options.quiet) std::cerr << "wrote " << written << '\n';
 }
 
 /// What a cache calls the world: names of files without folders, and its number among their worlds.
@@ -117,9 +132,11 @@ std::string worldName(const Options& options, std::size_t number) {
   return name + '#' + std::to_string(number);
 }
 
-/// One world: build, render, write. Sets `status` and returns the numbers.
-RenderStatistics renderWorld(SceneDescription& description, const std::string& name, const Options& options,
-                             const PhaseTime& parseTime, KeptBounds& bounds, int& status) {
+/// One world: build, render, write. Sets `status` and returns the numbers; nothing for a world that cannot be
+/// built.
+std::optional<RenderStatistics> renderWorld(SceneDescription& description, const std::string& name,
+                                            const Options& options, const PhaseTime& parseTime,
+                                            KeptBounds& bounds, int& status) {
   RenderStatistics statistics;
   statistics.scene = sceneNames(options);
   statistics.seed = options.seed;
@@ -139,14 +156,17 @@ RenderStatistics renderWorld(SceneDescription& description, const std::string& n
   if (diagnostics.hasErrors()) {
     show(diagnostics, options.quiet);
     status = kExitBadInput;
-    return statistics;
+    return std::nullopt;
   }
   const std::uint64_t sceneHash = description.textHash;
-  std::optional<Construction> scene = construct(description, build, diagnostics);
+  std::optional<Construction> scene = [&] {
+    const PhaseLine line(options.progress, options.quiet, "building " + sceneNames(options));
+    return construct(description, build, diagnostics);
+  }();
   show(diagnostics, options.quiet);
   if (!scene) {
     status = kExitBadInput;
-    return statistics;
+    return std::nullopt;
   }
   description = {};  // what was not taken is not needed any more
   statistics.construct = constructing.elapsed();
@@ -170,8 +190,8 @@ RenderStatistics renderWorld(SceneDescription& description, const std::string& n
   statistics.learning = result.learning;
 
   const Stopwatch writing;
-  writeImage(scene->outfile, withHeader(scene->film->develop(), statistics, options, sceneHash),
-             options.write);
+  writeRendered(scene->outfile, withHeader(scene->film->develop(), statistics, options, sceneHash), options,
+                status);
   bounds.save(name, *scene->scene);
   statistics.write = writing.elapsed();
   statistics.peakMemory = peakMemoryBytes();
@@ -179,8 +199,8 @@ RenderStatistics renderWorld(SceneDescription& description, const std::string& n
   std::cerr << describeFaults(result, options);
   if (!options.quiet) std::cerr << describeComplaints(*scene->scene);
   if (!options.quiet) std::cerr << formatStatistics(statistics);
-  if (options.strict && (result.counters.droppedTotal() > 0 || result.counters.boundViolations > 0))
-    status = kExitStrict;
+  const bool isFaulty = result.counters.droppedTotal() > 0 || result.counters.boundViolations > 0;
+  if (options.strict && isFaulty && status == 0) status = kExitStrict;
   return statistics;
 }
 
@@ -188,18 +208,22 @@ RenderStatistics renderWorld(SceneDescription& description, const std::string& n
 
 int runPbrt(const Options& options) {
   if (options.cat || options.toPly) return printScenes(options);
-  if (options.statsFile) requireFolderOf("--stats", *options.statsFile);
-  if (options.boundsCache) requireFolderOf("--bounds-cache", *options.boundsCache);
+  if (options.statsFile) requireWritable("--stats", *options.statsFile);
+  if (options.boundsCache) requireWritable("--bounds-cache", *options.boundsCache);
   const ThreadLimit threads(options.threads);
 
   const Stopwatch parsing;
   Diagnostics diagnostics;
   diagnostics.strict = options.strict;
-  std::vector<SceneDescription> worlds = parseFiles(options.scenes, diagnostics);
+  std::vector<SceneDescription> worlds = [&] {
+    const PhaseLine line(options.progress, options.quiet, "reading " + sceneNames(options));
+    return parseFiles(options.scenes, diagnostics);
+  }();
   const PhaseTime parseTime = parsing.elapsed();
   if (worlds.empty() && !diagnostics.hasErrors()) {
     diagnostics.error({}, "no WorldBegin … WorldEnd block in " + sceneNames(options) + ": nothing to render");
   }
+  reportSharedOutputs(worlds, options, diagnostics);
   show(diagnostics, options.quiet);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
@@ -207,11 +231,14 @@ int runPbrt(const Options& options) {
   int status = 0;
   std::vector<RenderStatistics> all;
   for (SceneDescription& world : worlds) {
-    all.push_back(renderWorld(world, worldName(options, all.size()), options,
-                              all.empty() ? parseTime : PhaseTime{}, bounds, status));
-    if (status == kExitBadInput || all.back().interrupted) break;
+    const std::optional<RenderStatistics> one =
+        renderWorld(world, worldName(options, all.size()), options, all.empty() ? parseTime : PhaseTime{},
+                    bounds, status);
+    if (!one) return status;
+    all.push_back(*one);
+    if (one->interrupted) break;
   }
-  if (options.statsFile && status != kExitBadInput) writeStatistics(*options.statsFile, all);
+  if (options.statsFile) writeStatistics(*options.statsFile, all);
   return status;
 }
 

@@ -354,6 +354,28 @@ TEST_F(Pbrt, ShowsALiveLineOnATerminalAndNoneWhenTold) {
   EXPECT_EQ(onTerminal("--progress none --time 1 endless.pbrt").output.find("samples/s"), std::string::npos);
 }
 
+TEST_F(Pbrt, NarrowTerminalsAreNotFlooded) {
+  const std::string name = "a_long_name_of_a_shot_that_alone_fills_a_line.exr";
+  folder_.write("endless.pbrt", kEndless);
+  const ProcessResult r = run("cd '" + folder_.path().string() +
+                              "' && script -qec \"stty cols 40; '" PBRT_PROGRAM "' --time 1 --outfile " +
+                              name + " endless.pbrt\" /dev/null < /dev/null");
+  EXPECT_EQ(r.status, 0) << r.output;
+  const std::size_t first = r.output.find("\ra_lo");
+  ASSERT_NE(first, std::string::npos) << r.output;
+  for (std::size_t at = first; at != std::string::npos; at = r.output.find("\ra_lo", at + 1)) {
+    EXPECT_LT(r.output.find("\033[K", at) - at, 41u) << r.output.substr(at, 80);
+  }
+}
+
+TEST_F(Pbrt, SaysThatReadingGoesOn) {
+  // A pipe that stays open keeps the program reading.
+  const ProcessResult r = run("cd '" + folder_.path().string() +
+                              "' && (sleep 6; echo WorldBegin) | '" PBRT_PROGRAM "' --progress plain -");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_NE(r.output.find("reading -, 5.0s\n"), std::string::npos) << r.output;
+}
+
 TEST_F(Pbrt, PlainProgressIsALineNowAndThen) {
   folder_.write("endless.pbrt", kEndless);
   const ProcessResult r = pbrt("--progress plain --time 6 endless.pbrt");
@@ -421,6 +443,62 @@ TEST_F(Pbrt, RendersEveryWorldOfAFile) {
   ASSERT_EQ(pbrt("two.pbrt").status, 0);
   EXPECT_EQ(firstPixel("one.exr"), Rgb(1));
   EXPECT_EQ(firstPixel("two.exr"), Rgb(2));
+}
+
+TEST_F(Pbrt, TellsOfWorldsThatWriteOneFile) {
+  const std::string world = "WorldBegin\nLightSource \"infinite\"\nWorldEnd\n";
+  const std::string film =
+      "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" ";
+  folder_.write("two.pbrt", film + "\"o.exr\"\n" + world + film + "\"./o.exr\"\n" + world);
+  const ProcessResult r = pbrt("two.pbrt");
+  EXPECT_EQ(r.status, 0) << r.output;
+  EXPECT_NE(r.output.find("two.pbrt:5:"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("only the last one rendered stays"), std::string::npos) << r.output;
+  std::filesystem::remove(folder_.path() / "o.exr");
+  EXPECT_EQ(pbrt("--strict two.pbrt").status, 1);
+  EXPECT_FALSE(folder_.has("o.exr"));
+  folder_.write("own.pbrt", film + "\"a.exr\"\n" + world + film + "\"b.exr\"\n" + world);
+  EXPECT_EQ(pbrt("--strict own.pbrt").status, 0);
+  const ProcessResult outfile = pbrt("--outfile c.exr own.pbrt");
+  EXPECT_NE(outfile.output.find("leave --outfile out"), std::string::npos) << outfile.output;
+}
+
+TEST_F(Pbrt, WritesAPngToo) {
+  folder_.write("a.pbrt", kScene);
+  const ProcessResult r = pbrt("--png a.pbrt");
+  EXPECT_EQ(r.status, 0) << r.output;
+  EXPECT_NE(r.output.find("wrote named.exr and named.png\n"), std::string::npos) << r.output;
+  EXPECT_EQ(readImage(folder_.path() / "named.png").width(), 16);
+  const ProcessResult only = pbrt("--png --outfile only.png a.pbrt");
+  EXPECT_NE(only.output.find("wrote only.png\n"), std::string::npos) << only.output;
+}
+
+TEST_F(Pbrt, FindsOutBeforeRenderingThatAFileCannotBeWritten) {
+  folder_.write("endless.pbrt", kEndless);
+  folder_.write("folder.exr/a", "");
+  for (const char* option : {"--stats folder.exr", "--bounds-cache folder.exr", "--outfile folder.exr",
+                             "--stats no/s.json", "--outfile no/a.exr"}) {
+    const ProcessResult r = pbrt(std::string(option) + " endless.pbrt", "timeout 20");
+    EXPECT_EQ(r.status, 1) << option << ": " << r.output;
+    EXPECT_NE(r.output.find("cannot be written"), std::string::npos) << r.output;
+  }
+  const ProcessResult r = pbrt("--outfile " + std::string(300, 'x') + ".exr endless.pbrt", "timeout 20");
+  EXPECT_NE(r.output.find("File name too long"), std::string::npos) << r.output;
+}
+
+TEST_F(Pbrt, AnImageThatCannotBeWrittenAfterAllIsRescued) {
+  folder_.write("endless.pbrt", kEndless);
+  folder_.write("out/a", "");
+  const ProcessResult r = run("cd '" + folder_.path().string() +
+                              "' && ( (sleep 0.7; rm -r out) & '" PBRT_PROGRAM
+                              "' --time 2 --stats s.json --outfile out/x.exr endless.pbrt )");
+  EXPECT_EQ(r.status, 1) << r.output;
+  EXPECT_NE(r.output.find("cannot write \"out/x.exr\""), std::string::npos) << r.output;
+  const std::size_t at = r.output.find("x-rescued-");
+  ASSERT_NE(at, std::string::npos) << r.output;
+  const std::string name = r.output.substr(at, r.output.find(".exr", at) + 4 - at);
+  EXPECT_EQ(firstPixel(name), Rgb(0.5f, 0.25f, 1));
+  EXPECT_TRUE(folder_.has("s.json")) << "the numbers are worth as much as before";
 }
 
 TEST_F(Pbrt, StrictTellsDroppedSamplesByItsExitStatus) {
