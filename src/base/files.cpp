@@ -84,6 +84,16 @@ class GrowingBytes {
 
 bool isGzip(std::string_view bytes) { return bytes.size() >= 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b'; }
 
+/// Git LFS leaves a few lines in the place of a big file until it is fetched.
+void refuseLfsPointer(std::string_view text, const std::string& shownName) {
+  constexpr std::string_view kHead = "version https://git-lfs.github.com/spec/";
+  constexpr std::size_t kMaxPointer = 1024;
+  if (text.size() > kMaxPointer || text.substr(0, kHead.size()) != kHead) return;
+  fail(shownName, '"' + shownName +
+                      "\" is a Git LFS pointer, which stands for a file that was not fetched; run \"git lfs "
+                      "pull\" in its repository");
+}
+
 class Inflater {
  public:
   Inflater() {
@@ -171,7 +181,10 @@ FileBytes FileBytes::open(const std::filesystem::path& path, std::size_t maxUnpa
   if (map == MAP_FAILED) return readDescriptor(file.fd(), shown);  // some file systems cannot map
   ::madvise(map, size, MADV_SEQUENTIAL);
   FileBytes mapped(static_cast<const char*>(map), size, true);
-  if (!isGzip(mapped.text())) return mapped;
+  if (!isGzip(mapped.text())) {
+    refuseLfsPointer(mapped.text(), shown);
+    return mapped;
+  }
   GrowingBytes plain = unpack(mapped.text(), shown, maxUnpacked);
   const std::size_t plainSize = plain.size();
   return {plain.release(), plainSize, false};
@@ -181,6 +194,8 @@ FileBytes FileBytes::readDescriptor(int descriptor, const std::string& shownName
   GrowingBytes bytes = readAll(descriptor, shownName);
   if (isGzip({bytes.data(), bytes.size()})) {
     bytes = unpack({bytes.data(), bytes.size()}, shownName, kDefaultMaxUnpacked);
+  } else {
+    refuseLfsPointer({bytes.data(), bytes.size()}, shownName);
   }
   const std::size_t size = bytes.size();
   return {bytes.release(), size, false};

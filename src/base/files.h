@@ -11,8 +11,9 @@
 namespace pbrtmedia {
 
 /// The bytes of a whole file, memory-mapped; gzip (by its magic bytes) is unpacked into memory. Move-only.
-/// Throws SceneError (location: the file) when it cannot be opened, is a directory, or the gzip data is
-/// truncated or corrupt. Safe to read from many threads.
+/// Throws SceneError (location: the file) when it cannot be opened, is a directory or the pointer that Git
+/// LFS leaves in the place of a file, or the gzip data is truncated or corrupt. Safe to read from many
+/// threads.
 class FileBytes {
  public:
   /// `maxUnpacked` bounds what a compressed file may grow to.

@@ -2,13 +2,17 @@
 #include "construct/cameras.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "cameras/environment.h"
 #include "cameras/orthographic.h"
 #include "cameras/perspective.h"
 #include "cameras/screen_window.h"
 #include "construct/plugins.h"
+#include "construct/tolerance.h"
 #include "scene/param_reader.h"
 
 namespace pbrtmedia {
@@ -39,21 +43,69 @@ ScreenWindow readScreenWindow(ParamReader& in, Point2i fullResolution) {
     if (w.size() == 4) {
       window = ScreenWindow{w[0], w[1], w[2], w[3]};
     } else {
-      in.error(ParamKind::Float, "screenwindow",
-               "found " + std::to_string(w.size()) + " numbers, expected 4: xmin xmax ymin ymax");
+      tolerate(in, ParamKind::Float, "screenwindow",
+               "found " + std::to_string(w.size()) +
+                   " numbers, expected 4: xmin xmax ymin ymax; it is left out, as in PBRT-v3");
     }
   }
   return resolveScreenWindow(fullResolution, aspect, window);
+}
+
+struct Lens {
+  float radius = 0, focalDistance = 1e6f;
+};
+
+/// PBRT-v3 has a lens only where its radius is above 0, and looks at the focal distance only then.
+Lens readLens(ParamReader& in, Lens fallback) {
+  Lens lens{in.findFloat("lensradius", fallback.radius),
+            in.findFloat("focaldistance", fallback.focalDistance)};
+  if (lens.radius < 0) {
+    tolerate(in, ParamKind::Float, "lensradius",
+             "found " + shownNumber(lens.radius) + ", expected >= 0; taken as 0, as in PBRT-v3");
+    lens.radius = 0;
+  }
+  if (lens.radius > 0 && !(lens.focalDistance > 0)) {
+    tolerate(in, ParamKind::Float, "focaldistance",
+             "found " + shownNumber(lens.focalDistance) +
+                 ", expected > 0; the lens is left out, so that all is sharp; PBRT-v3 looks backwards");
+    lens.radius = 0;
+  }
+  if (lens.radius == 0) lens.focalDistance = fallback.focalDistance;
+  return lens;
+}
+
+/// The full angle. Beyond (0, 180) the formula goes on, by the tangent of its half: the picture is turned.
+float readFov(ParamReader& in, float fallback) {
+  const float whole = in.findFloat("fov", fallback), half = in.findFloat("halffov", -1);
+  const float fov = resolveFov(whole, half);
+  if (Range::open(0, 180).contains(static_cast<double>(fov))) return fov;
+  const std::string_view name = half > 0 ? "halffov" : "fov";
+  const double folded = std::remainder(static_cast<double>(fov), 360.0);  // of the same tangent
+  const std::string found = "found " + shownNumber(half > 0 ? half : whole) + ", expected ";
+  const std::string expected = half > 0 ? "above 0 and below 90" : "in (0, 180)";
+  if (std::abs(folded) == 0 || std::abs(folded) == 180) {
+    in.error(ParamKind::Float, name, found + expected);
+    return fallback;
+  }
+  tolerate(in, ParamKind::Float, name,
+           found + expected + "; as in PBRT-v3 " +
+               (folded < 0 ? "the picture is turned by 180 degrees" : "this is the same as ") +
+               (folded < 0 ? "" : shownNumber(static_cast<float>(folded))));
+  return static_cast<float>(folded);
 }
 
 std::unique_ptr<Camera> readPerspective(ParamReader& in, const AnimatedTransform& place, Point2i resolution) {
   PerspectiveCamera::Params p;
   p.fullResolution = resolution;
   p.screenWindow = readScreenWindow(in, resolution);
-  const float fov = in.findFloat("fov", p.fov, Range::open(0, 180));
-  p.fov = resolveFov(fov, in.findFloat("halffov", -1, Range{.max = 90, .openMax = true}));
-  p.lensRadius = in.findFloat("lensradius", p.lensRadius, Range::nonNegative());
-  p.focalDistance = in.findFloat("focaldistance", p.focalDistance, Range::positive());
+  p.fov = readFov(in, p.fov);
+  if (p.fov < 0) {  // the tangent of a negative angle mirrors both axes
+    p.fov = -p.fov;
+    p.screenWindow = {-p.screenWindow.xMin, -p.screenWindow.xMax, -p.screenWindow.yMin, -p.screenWindow.yMax};
+  }
+  const Lens lens = readLens(in, {p.lensRadius, p.focalDistance});
+  p.lensRadius = lens.radius;
+  p.focalDistance = lens.focalDistance;
   const Shutter shutter = readShutter(in);
   p.shutterOpen = shutter.open;
   p.shutterClose = shutter.close;
@@ -65,8 +117,9 @@ std::unique_ptr<Camera> readOrthographic(ParamReader& in, const AnimatedTransfor
   OrthographicCamera::Params p;
   p.fullResolution = resolution;
   p.screenWindow = readScreenWindow(in, resolution);
-  p.lensRadius = in.findFloat("lensradius", p.lensRadius, Range::nonNegative());
-  p.focalDistance = in.findFloat("focaldistance", p.focalDistance, Range::positive());
+  const Lens lens = readLens(in, {p.lensRadius, p.focalDistance});
+  p.lensRadius = lens.radius;
+  p.focalDistance = lens.focalDistance;
   const Shutter shutter = readShutter(in);
   p.shutterOpen = shutter.open;
   p.shutterClose = shutter.close;
@@ -106,13 +159,8 @@ std::unique_ptr<Camera> readCamera(SceneDescription& scene, Point2i fullResoluti
         "Camera: the transformation scales; focal distance and lens radius are in camera units");
   }
   if (!entity.given) entity.type = "perspective";
-  const auto* plugin = findPlugin<ReadCamera>(kCameras, entity, "Camera", diagnostics);
-  if (plugin == nullptr) {
-    // There is no picture without a camera, --strict or not.
-    if (!diagnostics.strict)
-      diagnostics.error(entity.typeLocation, "Camera: nothing can be rendered without a camera");
-    return nullptr;
-  }
+  const auto* plugin = findPlugin<ReadCamera>(kCameras, entity, "Camera", "", diagnostics);
+  if (plugin == nullptr) return nullptr;
   ParamReader in(entity, diagnostics, "Camera \"" + entity.type + "\"");
   const std::size_t before = diagnostics.errorCount();
   std::unique_ptr<Camera> camera;

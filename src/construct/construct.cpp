@@ -30,14 +30,16 @@ void readAccelerator(Entity& entity, Diagnostics& diagnostics) {
         [](ParamReader& in) {
           constexpr std::array<std::string_view, 4> kMethods = {"sah", "hlbvh", "middle", "equal"};
           in.findChoice("splitmethod", kMethods, 0);
-          in.findInt("maxnodeprims", 4, Range::atLeast(1));
+          in.findInt("maxnodeprims", 4);
         }},
        {"kdtree", [](ParamReader& in) {
           for (const std::string_view name : {"intersectcost", "traversalcost", "maxprims", "maxdepth"})
             in.findInt(name, 1);
           in.findFloat("emptybonus", 0.5f);
         }}}};
-  const auto* plugin = findPlugin<Read>(kAccelerators, entity, "Accelerator", diagnostics);
+  const auto* plugin =
+      findPlugin<Read>(kAccelerators, entity, "Accelerator",
+                       "the image does not depend on it; PBRT-v3 renders an empty scene", diagnostics);
   if (plugin == nullptr) return;
   ParamReader in(entity, diagnostics, "Accelerator \"" + entity.type + "\"");
   plugin->read(in);
@@ -151,7 +153,8 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
   if (!integrator->rendersMedia && world.usesMedia()) {
     diagnostics.warning(scene.integrator.given ? scene.integrator.location : scene.worldEnd,
                         "Integrator \"" + scene.integrator.type +
-                            "\" does not render participating media, which this scene has; \"volpath\" does");
+                            "\" does not render participating media, so the image shows this scene without "
+                            "those it has, as in PBRT-v3; \"volpath\" renders them");
   }
   made.report = world.report();
   return made;

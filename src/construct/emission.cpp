@@ -7,20 +7,62 @@
 #include <utility>
 
 #include "construct/plugins.h"
+#include "construct/tolerance.h"
+#include "construct/volume_file.h"
 
 namespace pbrtmedia {
 namespace {
 
+/// A medium of sigma_a 0 emits nothing, whatever else is said.
+void warnIfNothingEmits(ParamReader& in, const SourceLocation& at, const MediumParams& p) {
+  if (p.le.isBlack() || !p.sigmaA.isBlack()) return;
+  in.diagnostics().warning(at, in.context() +
+                                   ": sigma_a is 0, and what a medium emits is sigma_a times its "
+                                   "radiance, so it emits nothing");
+}
+
+/// Whether "Lescale" has something to multiply: "Le", or temperatures.
+bool hasRadiance(const ParamReader& in) {
+  const ParamList& params = in.entity().params;
+  return params.find(ParamKind::Spectrum, "Le") != nullptr ||
+         params.find(ParamKind::Float, "temperature") != nullptr ||
+         params.find(ParamKind::String, "temperaturegrid") != nullptr;
+}
+
+void requireRadiance(ParamReader& in, ParamKind kind, std::string_view name) {
+  if (hasRadiance(in)) return;
+  in.error(
+      kind, name,
+      "it multiplies the radiance \"Le\", which is not given, so that the medium would emit nothing; add "
+      "\"rgb Le\" [ 1 1 1 ]");
+}
+
 /// A medium may glow by "Le" or by temperature. Sets the radiance of what temperatures give.
-bool usesTemperature(ParamReader& in, bool isGiven, FieldMediumParams& p) {
+bool usesTemperature(ParamReader& in, ParamKind kind, std::string_view name, bool isGiven,
+                     FieldMediumParams& p) {
   if (!isGiven) return false;
   if (in.has(ParamKind::Spectrum, "Le")) {
     in.error(ParamKind::Spectrum, "Le", "the colour comes from temperatures already: one of them");
   }
   const float scale = in.floats("Lescale").size() == 1 ? in.floats("Lescale").front() : 1.0f;
   p.le = Rgb(scale);
+  warnIfNothingEmits(in, in.locationOf(kind, name), p);
   return true;
 }
+
+/// Says so where a grid leaves a medium dark that was meant to glow.
+std::shared_ptr<const EmissionPattern> toldIfBlack(std::shared_ptr<const EmissionPattern> pattern,
+                                                   std::string_view why, const SourceLocation& named,
+                                                   std::string_view context, Diagnostics& diagnostics) {
+  if (pattern->isBlack()) {
+    diagnostics.warning(named, std::string(context) + ": the medium emits nothing: " + std::string(why));
+  }
+  return pattern;
+}
+
+constexpr std::string_view kTooCold =
+    "no temperature is above 100 K, below which all is dark; is a \"float temperaturescale\" missing?";
+constexpr std::string_view kNoFactor = "all its factors are 0";
 
 TemperatureMap readTemperatureMap(ParamReader& in) {
   TemperatureMap map;
@@ -50,69 +92,80 @@ std::optional<GridField::Params> takeGrid(ParamReader& in, std::string_view name
   taken.p1 = grid.p1;
   taken.border = grid.border;
   taken.density = in.takeFloats(name);
-  for (std::size_t i = 0; i < expected; ++i) {
-    if (taken.density[i] >= 0) continue;
-    const std::size_t nx = static_cast<std::size_t>(grid.nx), ny = static_cast<std::size_t>(grid.ny);
-    in.error(ParamKind::Float, name,
-             "voxel (" + std::to_string(i % nx) + ", " + std::to_string(i / nx % ny) + ", " +
-                 std::to_string(i / (nx * ny)) + ") is negative: " + std::to_string(taken.density[i]));
-    return std::nullopt;
-  }
+  clampNegatives(taken.density, grid.nx, grid.ny, "parameter \"" + std::string(name) + '"',
+                 in.locationOf(ParamKind::Float, name), in.context(), in.diagnostics());
   return taken;
 }
 
 }  // namespace
 
 void readEmission(ParamReader& in, const MediumDescription& medium, MediumParams& p) {
-  p.le = in.findSpectrum("Le", Rgb(0));
-  if (p.le.min() < 0) {
-    in.error(ParamKind::Spectrum, "Le", "found a negative radiance, expected numbers >= 0");
-    p.le = Rgb(0);
-  }
+  p.le = nonNegative(in, "Le", in.findSpectrum("Le", Rgb(0)));
   const std::size_t scales = in.floats("Lescale").size();
   if (scales > 1 && medium.type != "heterogeneous") {
     in.error(ParamKind::Float, "Lescale", "found " + std::to_string(scales) + " values, expected 1");
-  } else if (scales == 1) {
+  } else if (scales > 0) {
+    requireRadiance(in, ParamKind::Float, "Lescale");
+  }
+  if (scales == 1) {
     const float scale = in.floats("Lescale").front();
     if (!(scale >= 0)) in.error(ParamKind::Float, "Lescale", "found a negative number, expected one >= 0");
     p.le = p.le * scale;
   }
+  warnIfNothingEmits(in, in.locationOf(ParamKind::Spectrum, "Le"), p);
 }
 
-EmissionPlan readGridEmission(ParamReader& in, const GridField::Params& grid, FieldMediumParams& p) {
-  if (usesTemperature(in, in.has(ParamKind::Float, "temperature"), p)) {
+EmissionPlan readGridEmission(const MediumInput& input, const GridField::Params& grid, FieldMediumParams& p) {
+  ParamReader& in = input.in;
+  Diagnostics& building = input.building;
+  constexpr ParamKind kKind = ParamKind::Float;
+  if (usesTemperature(in, kKind, "temperature", in.has(kKind, "temperature"), p)) {
     const TemperatureMap map = readTemperatureMap(in);
     std::optional<GridField::Params> taken = takeGrid(in, "temperature", grid);
     if (!taken) return {};
-    return [taken = std::move(*taken), map](const Transform& place) {
-      return makeBlackbodyPattern(taken, map, place);
+    return [taken = std::move(*taken), map, named = in.locationOf(kKind, "temperature"),
+            context = in.context(), &building](const Transform& place) {
+      return toldIfBlack(makeBlackbodyPattern(taken, map, place), kTooCold, named, context, building);
     };
   }
   if (in.floats("Lescale").size() <= 1) return {};
   std::optional<GridField::Params> taken = takeGrid(in, "Lescale", grid);
   if (!taken) return {};
-  return [taken = std::move(*taken)](const Transform& place) { return makeScalePattern(taken, place); };
+  return [taken = std::move(*taken), named = in.locationOf(kKind, "Lescale"), context = in.context(),
+          &building](const Transform& place) {
+    return toldIfBlack(makeScalePattern(taken, place), kNoFactor, named, context, building);
+  };
 }
 
-EmissionPlan readNanoVdbEmission(ParamReader& in, const NanoVdbField::Params& density, FieldMediumParams& p) {
+EmissionPlan readNanoVdbEmission(const MediumInput& input, const std::filesystem::path& file,
+                                 FieldMediumParams& p) {
+  ParamReader& in = input.in;
+  constexpr ParamKind kKind = ParamKind::String;
   const std::optional<std::string> temperatures = in.optionalString("temperaturegrid"),
                                    factors = in.optionalString("Legrid");
   if (!temperatures && !factors) return {};
   const std::string_view name = temperatures ? "temperaturegrid" : "Legrid";
   if (temperatures && factors) {
-    in.error(ParamKind::String, "Legrid", "the radiance comes from temperatures already: one of them");
+    in.error(kKind, "Legrid", "the radiance comes from temperatures already: one of them");
+  } else if (factors) {
+    requireRadiance(in, kKind, "Legrid");
   }
-  NanoVdbField::Params grid{.file = density.file, .grid = temperatures ? *temperatures : *factors, .map = {}};
-  const SourceLocation named = in.locationOf(ParamKind::String, name);
-  if (usesTemperature(in, temperatures.has_value(), p)) {
-    const TemperatureMap map = readTemperatureMap(in);
-    return [grid = std::move(grid), map, named, context = in.context()](const Transform& place) {
-      return builtAt(named, context, [&] { return makeBlackbodyPattern(grid, map, place); });
-    };
-  }
-  return [grid = std::move(grid), named, context = in.context()](const Transform& place) {
-    return builtAt(named, context, [&] { return makeScalePattern(grid, place); });
-  };
+  const bool isHot = usesTemperature(in, kKind, name, temperatures.has_value(), p);
+  const TemperatureMap map = isHot ? readTemperatureMap(in) : TemperatureMap{};
+  return
+      [grid = NanoVdbField::Params{.file = file, .grid = temperatures ? *temperatures : *factors, .map = {}},
+       map, isHot, named = in.locationOf(kKind, name), context = in.context(),
+       &building = input.building](const Transform& place) {
+        return builtAt(named, context, [&] {
+          NegativeDensities negatives;
+          NanoVdbField::Params params = grid;
+          params.map.negatives = &negatives;
+          std::shared_ptr<const EmissionPattern> pattern =
+              isHot ? makeBlackbodyPattern(params, map, place) : makeScalePattern(params, place);
+          tellNegatives(negatives, grid.grid, named, context, building);
+          return toldIfBlack(std::move(pattern), isHot ? kTooCold : kNoFactor, named, context, building);
+        });
+      };
 }
 
 }  // namespace pbrtmedia

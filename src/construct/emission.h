@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 
+#include "construct/medium_kinds.h"
 #include "media/emission_patterns.h"
 #include "media/field_medium_params.h"
 #include "scene/description.h"
@@ -18,8 +20,9 @@ void readEmission(ParamReader& in, const MediumDescription& medium, MediumParams
 using EmissionPlan = std::function<std::shared_ptr<const EmissionPattern>(const Transform& worldFromMedium)>;
 
 /// The grids beside: "Lescale" or "temperature" for each sample of `grid`, whose density is not needed.
-EmissionPlan readGridEmission(ParamReader& in, const GridField::Params& grid, FieldMediumParams& p);
-/// "Legrid" or "temperaturegrid" of the file that `density` names.
-EmissionPlan readNanoVdbEmission(ParamReader& in, const NanoVdbField::Params& density, FieldMediumParams& p);
+EmissionPlan readGridEmission(const MediumInput& input, const GridField::Params& grid, FieldMediumParams& p);
+/// "Legrid" or "temperaturegrid" of the .nvdb file.
+EmissionPlan readNanoVdbEmission(const MediumInput& input, const std::filesystem::path& file,
+                                 FieldMediumParams& p);
 
 }  // namespace pbrtmedia

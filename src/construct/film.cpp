@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/writable.h"
 #include "construct/plugins.h"
+#include "construct/tolerance.h"
 #include "filters/box.h"
 #include "filters/gaussian.h"
 #include "filters/mitchell.h"
@@ -53,7 +55,8 @@ std::unique_ptr<Filter> readMitchell(ParamReader& in) {
 std::unique_ptr<Filter> readSinc(ParamReader& in) {
   SincFilter::Params p;
   p.radius = readRadius(in, p.radius);
-  p.tau = in.findFloat("tau", p.tau, Range::positive());
+  p.tau = std::abs(in.findFloat("tau", p.tau));  // its sign cancels
+  if (p.tau == 0) in.error(ParamKind::Float, "tau", "found 0, expected > 0");
   return std::make_unique<SincFilter>(p);
 }
 
@@ -65,13 +68,8 @@ constexpr std::array<Plugin<ReadFilter>, 5> kFilters = {{{"box", readBox},
 
 std::unique_ptr<Filter> readFilter(Entity& entity, Diagnostics& diagnostics) {
   if (!entity.given) return std::make_unique<BoxFilter>(BoxFilter::Params{});
-  const auto* plugin = findPlugin<ReadFilter>(kFilters, entity, "PixelFilter", diagnostics);
-  if (plugin == nullptr) {
-    // PBRT-v3 ends here, so there is no image that could be meant.
-    if (!diagnostics.strict)
-      diagnostics.error(entity.typeLocation, "PixelFilter: nothing can be rendered without a filter");
-    return nullptr;
-  }
+  const auto* plugin = findPlugin<ReadFilter>(kFilters, entity, "PixelFilter", "", diagnostics);
+  if (plugin == nullptr) return nullptr;
   ParamReader in(entity, diagnostics, "PixelFilter \"" + entity.type + "\"");
   std::unique_ptr<Filter> filter;
   try {
@@ -125,10 +123,18 @@ FilmPlan readFilm(SceneDescription& scene, const ConstructOptions& options, Diag
                   in.findInt("yresolution", s.resolution.y, resolution)};
   if (options.quick) s.resolution = {std::max(1, s.resolution.x / 4), std::max(1, s.resolution.y / 4)};
   s.scale = in.findFloat("scale", s.scale);
-  s.maxSampleLuminance = in.findFloat("maxsampleluminance", s.maxSampleLuminance, Range::positive());
+  if (const std::optional<float> most = in.optionalFloat("maxsampleluminance")) {
+    if (*most > 0) {
+      s.maxSampleLuminance = *most;
+    } else {
+      tolerate(
+          in, ParamKind::Float, "maxsampleluminance",
+          "found " + shownNumber(*most) + ", expected > 0; no sample is limited; PBRT-v3's image is black");
+    }
+  }
   // Only the realistic camera of PBRT-v3 uses it, which this renderer does not have: read, so that scenes
   // that give it load.
-  in.findFloat("diagonal", 35, Range::positive());
+  in.findFloat("diagonal", 35);
   if (options.cropWindow) setCropWindow(s, *options.cropWindow);
   if (in.has(ParamKind::Float, "cropwindow")) {
     const std::span<const float> crop = in.floats("cropwindow");

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "construct/integrators.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "construct/plugins.h"
+#include "construct/tolerance.h"
 #include "integrators/direct_lighting.h"
 #include "integrators/light_selection.h"
 #include "integrators/path.h"
@@ -20,8 +26,8 @@ constexpr int kMaxDepth = 1 << 30;
 
 PathParams readPathParams(ParamReader& in) {
   PathParams p;
-  p.maxDepth = in.findInt("maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
-  p.rrThreshold = in.findFloat("rrthreshold", p.rrThreshold, Range::nonNegative());
+  p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
+  p.rrThreshold = findFloatWithin(in, "rrthreshold", p.rrThreshold, Range::nonNegative());
   constexpr std::array<std::string_view, 3> kStrategies = {"uniform", "power", "spatial"};
   p.lightSampleStrategy = kStrategies[in.findChoice("lightsamplestrategy", kStrategies, 2)];
   return p;
@@ -47,11 +53,11 @@ IntegratorPlan readVolPath(ParamReader& in) {
   constexpr std::array<std::string_view, 4> kSamplings = {"auto", "collision", "equiangular", "mis"};
   p.mediumLightSampling =
       std::array{MediumLightSampling::Auto, MediumLightSampling::Collision, MediumLightSampling::Equiangular,
-                 MediumLightSampling::Mis}[in.findChoice("mediumlightsampling", kSamplings,
+                 MediumLightSampling::Mis}[findOwnChoice(in, "mediumlightsampling", kSamplings,
                                                          static_cast<std::size_t>(p.mediumLightSampling))];
   constexpr std::array<std::string_view, 3> kChannels = {"auto", "shared", "split"};
   p.channelSampling = std::array{ChannelSampling::Auto, ChannelSampling::Shared,
-                                 ChannelSampling::Split}[in.findChoice("channelsampling", kChannels, 0)];
+                                 ChannelSampling::Split}[findOwnChoice(in, "channelsampling", kChannels, 0)];
   return {[=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
             return std::make_unique<VolPathIntegrator>(
                 scene, p, selectorFor(scene.lightsWithMedia(), scene, p), std::move(cameraMedium));
@@ -61,7 +67,7 @@ IntegratorPlan readVolPath(ParamReader& in) {
 
 IntegratorPlan readDirectLighting(ParamReader& in) {
   DirectLightingParams p;
-  p.maxDepth = in.findInt("maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
+  p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   constexpr std::array<std::string_view, 2> kStrategies = {"all", "one"};
   p.strategy = std::array{DirectLightingParams::Strategy::All,
                           DirectLightingParams::Strategy::One}[in.findChoice("strategy", kStrategies, 0)];
@@ -73,7 +79,7 @@ IntegratorPlan readDirectLighting(ParamReader& in) {
 
 IntegratorPlan readWhitted(ParamReader& in) {
   WhittedParams p;
-  p.maxDepth = in.findInt("maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
+  p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   return {[=](const Scene& scene, const CameraMedium&) -> std::unique_ptr<Integrator> {
             return std::make_unique<WhittedIntegrator>(scene, p);
           },
@@ -85,13 +91,49 @@ constexpr std::array<Plugin<ReadIntegrator>, 4> kIntegrators = {{{"path", readPa
                                                                  {"directlighting", readDirectLighting},
                                                                  {"whitted", readWhitted}}};
 
+/// An integrator of PBRT-v3 that is not here, and the one that converges to the same image.
+struct Substitute {
+  std::string_view name, taken;
+  std::span<const std::pair<ParamKind, std::string_view>> parameters;  ///< that change its noise only
+};
+constexpr std::array<std::pair<ParamKind, std::string_view>, 2> kOfBdpt = {
+    {{ParamKind::Bool, "visualizestrategies"}, {ParamKind::Bool, "visualizeweights"}}};
+constexpr std::array<std::pair<ParamKind, std::string_view>, 5> kOfMlt = {
+    {{ParamKind::Integer, "bootstrapsamples"},
+     {ParamKind::Integer, "chains"},
+     {ParamKind::Integer, "mutationsperpixel"},
+     {ParamKind::Float, "largestepprobability"},
+     {ParamKind::Float, "sigma"}}};
+constexpr std::array<std::pair<ParamKind, std::string_view>, 5> kOfSppm = {
+    {{ParamKind::Integer, "iterations"},
+     {ParamKind::Integer, "numiterations"},
+     {ParamKind::Integer, "photonsperiteration"},
+     {ParamKind::Integer, "imagewritefrequency"},
+     {ParamKind::Float, "radius"}}};
+constexpr std::array<Substitute, 3> kSubstitutes = {
+    {{"bdpt", "volpath", kOfBdpt}, {"mlt", "volpath", kOfMlt}, {"sppm", "path", kOfSppm}}};
+
+/// The substitute for the entity's type, which is told and set; null where none is needed, or there is none.
+const Substitute* substitute(Entity& entity, Diagnostics& diagnostics) {
+  const auto* const found = std::find_if(kSubstitutes.begin(), kSubstitutes.end(),
+                                         [&](const Substitute& s) { return s.name == entity.type; });
+  if (found == kSubstitutes.end()) return nullptr;
+  std::string message = "Integrator: \"";
+  message.append(found->name).append("\" is not there; \"").append(found->taken);
+  message += "\" takes its place, which converges to the same image but has other noise";
+  diagnostics.tolerated(entity.typeLocation, message);
+  entity.type = found->taken;
+  return found;
+}
+
 /// x0 x1 y0 y1 in pixels, upper exclusive.
 std::optional<Bounds2i> readPixelBounds(ParamReader& in) {
   if (!in.has(ParamKind::Integer, "pixelbounds")) return std::nullopt;
   const std::span<const int> b = in.ints("pixelbounds");
   if (b.size() != 4) {
-    in.error(ParamKind::Integer, "pixelbounds",
-             "found " + std::to_string(b.size()) + " numbers, expected 4: x0 x1 y0 y1");
+    tolerate(in, ParamKind::Integer, "pixelbounds",
+             "found " + std::to_string(b.size()) +
+                 " numbers, expected 4: x0 x1 y0 y1; they are left out, as in PBRT-v3");
     return std::nullopt;
   }
   const Bounds2i bounds{{b[0], b[2]}, {b[1], b[3]}};
@@ -107,16 +149,15 @@ std::optional<Bounds2i> readPixelBounds(ParamReader& in) {
 std::optional<IntegratorPlan> readIntegrator(SceneDescription& scene, Diagnostics& diagnostics) {
   Entity& entity = scene.integrator;
   if (!entity.given) entity.type = "path";
-  const auto* plugin = findPlugin<ReadIntegrator>(kIntegrators, entity, "Integrator", diagnostics);
-  if (plugin == nullptr) {
-    if (!diagnostics.strict) {
-      diagnostics.error(entity.typeLocation, "Integrator: nothing can be rendered without an integrator");
-    }
-    return std::nullopt;
-  }
+  const Substitute* const instead = substitute(entity, diagnostics);
+  const auto* plugin = findPlugin<ReadIntegrator>(kIntegrators, entity, "Integrator", "", diagnostics);
+  if (plugin == nullptr) return std::nullopt;
   ParamReader in(entity, diagnostics, "Integrator \"" + entity.type + "\"");
   IntegratorPlan plan = plugin->read(in);
   plan.pixelBounds = readPixelBounds(in);
+  if (instead != nullptr) {
+    for (const auto& [kind, name] : instead->parameters) in.has(kind, name);
+  }
   in.reportUnused();
   return plan;
 }

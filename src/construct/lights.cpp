@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 
 #include "construct/plugins.h"
+#include "construct/tolerance.h"
 #include "image/image.h"
 #include "lights/distant.h"
 #include "lights/goniometric.h"
@@ -32,9 +34,25 @@ Rgb readScaled(ParamReader& in, std::string_view name) {
 /// "samples", with the alias "nsamples" of lower priority.
 int readSamples(ParamReader& in, bool quick) {
   const Range range = Range::closed(1, 1 << 20);
-  const std::optional<int> alias = in.optionalInt("nsamples", range);
-  const int samples = in.findInt("samples", alias.value_or(1), range);
+  const std::optional<int> alias = optionalIntWithin(in, "nsamples", range);
+  const int samples = findIntWithin(in, "samples", alias.value_or(1), range);
   return quick ? std::max(1, samples / 4) : samples;
+}
+
+/// Reads the picture of "mapname" when the light is made. Nothing, as in PBRT-v3, where there is none.
+std::function<std::optional<Image>()> readMap(ParamReader& in, std::string_view without) {
+  const std::string consequence = std::string(without) + ", as in PBRT-v3";
+  const std::optional<std::filesystem::path> file = in.findInputFile("mapname", consequence);
+  if (!file) return [] { return std::nullopt; };
+  return [path = *file, named = in.locationOf(ParamKind::String, "mapname"), context = in.context(),
+          consequence, &diagnostics = in.diagnostics()]() -> std::optional<Image> {
+    try {
+      return readImage(path);
+    } catch (const SceneError& e) {
+      diagnostics.tolerated(named, context + ": parameter \"mapname\": " + problemOf(e) + "; " + consequence);
+      return std::nullopt;
+    }
+  };
 }
 
 LightPlan readPoint(const LightInput& input) {
@@ -49,8 +67,13 @@ LightPlan readSpot(const LightInput& input) {
   p.intensity = readScaled(input.in, "I");
   p.from = input.in.findPoint3("from", p.from);
   p.to = input.in.findPoint3("to", p.to);
-  p.coneAngle = input.in.findFloat("coneangle", p.coneAngle, Range::closed(0, 180));
+  p.coneAngle = input.in.findFloat("coneangle", p.coneAngle);
   p.coneDeltaAngle = input.in.findFloat("conedeltaangle", p.coneDeltaAngle);
+  if (!Range::closed(0, 180).contains(static_cast<double>(p.coneAngle))) {
+    tolerate(input.in, ParamKind::Float, "coneangle",
+             "found " + shownNumber(p.coneAngle) +
+                 ", expected in [0, 180]; its cosine is what counts, as in PBRT-v3");
+  }
   return [=, place = input.worldFromLight] { return std::make_unique<SpotLight>(place, p); };
 }
 
@@ -64,21 +87,26 @@ LightPlan readDistant(const LightInput& input) {
 
 LightPlan readGoniometric(const LightInput& input) {
   const Rgb intensity = readScaled(input.in, "I");
-  const auto file = input.in.findInputFile("mapname");
+  const auto map = readMap(input.in, "the light shines alike in all directions");
   return [=, place = input.worldFromLight] {
-    GoniometricLight::Params p{.intensity = intensity, .map = std::nullopt};
-    if (file) p.map = readImage(*file);
+    GoniometricLight::Params p{.intensity = intensity, .map = map()};
     return std::make_unique<GoniometricLight>(place, p);
   };
 }
 
 LightPlan readProjection(const LightInput& input) {
   const Rgb intensity = readScaled(input.in, "I");
-  const float fov = input.in.findFloat("fov", 45, Range::open(0, 180));
-  const auto file = input.in.findInputFile("mapname");
+  const float fov = input.in.findFloat("fov", 45);
+  const auto map = readMap(input.in, "the light shines without a picture");
+  if (!Range::open(0, 180).contains(static_cast<double>(fov))) {
+    tolerate(
+        input.in, ParamKind::Float, "fov",
+        "found " + shownNumber(fov) +
+            ", expected in (0, 180); the light is left out; PBRT-v3 makes a turned picture or NaN of it");
+    return {};
+  }
   return [=, place = input.worldFromLight] {
-    ProjectionLight::Params p{.intensity = intensity, .fov = fov, .map = std::nullopt};
-    if (file) p.map = readImage(*file);
+    ProjectionLight::Params p{.intensity = intensity, .fov = fov, .map = map()};
     return std::make_unique<ProjectionLight>(place, p);
   };
 }
@@ -86,10 +114,9 @@ LightPlan readProjection(const LightInput& input) {
 LightPlan readInfinite(const LightInput& input) {
   const Rgb radiance = readScaled(input.in, "L");
   const int samples = readSamples(input.in, input.quick);
-  const auto file = input.in.findInputFile("mapname");
+  const auto map = readMap(input.in, "the light has the colour L alone");
   return [=, place = input.worldFromLight] {
-    InfiniteLight::Params p{.radiance = radiance, .map = std::nullopt, .samples = samples};
-    if (file) p.map = readImage(*file);
+    InfiniteLight::Params p{.radiance = radiance, .map = map(), .samples = samples};
     return std::make_unique<InfiniteLight>(place, p);
   };
 }
@@ -118,35 +145,35 @@ constexpr std::array<Plugin<ReadAreaLight>, 2> kAreaLights = {
 }  // namespace
 
 std::optional<LightPlan> readLight(LightDescription& light, bool quick, Diagnostics& diagnostics) {
-  const auto* plugin = findPlugin<ReadLight>(kLights, light, "LightSource", diagnostics);
+  const auto* plugin =
+      findPlugin<ReadLight>(kLights, light, "LightSource", "it is left out, as in PBRT-v3", diagnostics);
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(light, diagnostics, "LightSource \"" + light.type + "\"");
   if (light.ctm->isAnimated()) {
     diagnostics.warning(light.location,
                         in.context() + ": lights do not move; the transformation of the start time is used");
   }
-  if (light.ctm->start.isSingular()) {
-    in.error("the transformation is singular: it has no inverse");
-    return std::nullopt;
-  }
   LightPlan plan = plugin->read({in, light.ctm->start, quick});
-  const bool readsFile = std::as_const(light.params).find(ParamKind::String, "mapname") != nullptr;
   in.reportUnused();
+  if (!plan) return std::nullopt;
   LightPlan located = [plan = std::move(plan), location = light.location, context = in.context()] {
     return builtAt(location, context, plan);
   };
+  const bool readsFile = std::as_const(light.params).find(ParamKind::String, "mapname") != nullptr;
   if (readsFile) return located;
   try {  // made once to have its own checks now, with all other problems
     located();
   } catch (const SceneError& e) {
-    diagnostics.add(e);
+    diagnostics.tolerated(e.location(),
+                          std::string(e.what()) + "; the light is left out; PBRT-v3 makes NaN of it");
     return std::nullopt;
   }
   return located;
 }
 
 std::optional<DiffuseAreaLight::Params> readAreaLight(Entity& light, bool quick, Diagnostics& diagnostics) {
-  const auto* plugin = findPlugin<ReadAreaLight>(kAreaLights, light, "AreaLightSource", diagnostics);
+  const auto* plugin = findPlugin<ReadAreaLight>(kAreaLights, light, "AreaLightSource",
+                                                 "the shapes emit nothing, as in PBRT-v3", diagnostics);
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(light, diagnostics, "AreaLightSource \"" + light.type + "\"");
   const DiffuseAreaLight::Params params = plugin->read(in, quick);

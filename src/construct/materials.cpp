@@ -5,6 +5,7 @@
 #include <array>
 
 #include "construct/plugins.h"
+#include "construct/tolerance.h"
 #include "materials/glass.h"
 #include "materials/matte.h"
 #include "materials/metal.h"
@@ -25,8 +26,8 @@ constexpr int kMaxNesting = 256;  // mixes within mixes; more than the number of
 
 /// A dielectric's index: "eta", else "index".
 TextureUse<float> readEta(Texturable& in, float fallback) {
-  const auto eta = in.optionalFloat("eta", Range::positive());
-  const auto index = in.optionalFloat("index", Range::positive());
+  const auto eta = in.optionalFloat("eta", Range::nonNegative());
+  const auto index = in.optionalFloat("index", Range::nonNegative());
   TextureUse<float> use =
       eta ? *eta : index.value_or(TextureUse<float>{TextureUse<float>::kConstant, fallback});
   if (!use.isConstant()) use.constant = fallback;
@@ -164,32 +165,37 @@ Make readUber(Texturable& in) {
   };
 }
 
-Make readMix(Texturable& in) {
-  const auto amount = in.findRgb("amount", Rgb(0.5f));
-  std::array<std::int32_t, 2> parts{kNone, kNone};
-  constexpr std::array<std::string_view, 2> kNames = {"namedmaterial1", "namedmaterial2"};
-  bool complete = true;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const std::optional<std::string> name = in.optionalString(kNames[i]);
-    if (!name) {
-      in.own().error("parameter \"" + std::string(kNames[i]) + "\" is missing");
-      complete = false;
-      continue;
-    }
+/// One of the two materials of a mix: one with a name, or what PBRT-v3 makes where that is unknown, a matte
+/// of the parameters of the mix.
+struct MixPart {
+  std::int32_t named = kNone;
+  Make matte;
+  const Material* build(Materials& m) const { return matte ? m.keep(matte(m)) : m.buildShared(named); }
+};
+
+MixPart readMixPart(Texturable& in, std::string_view parameter) {
+  constexpr std::string_view kMatte = "; a matte takes its place, as in PBRT-v3";
+  const std::optional<std::string> name = in.optionalString(parameter);
+  if (name) {
     if (const auto index = NameScope::find(in.scope(), NameScope::Kind::Materials, *name)) {
-      parts[i] = static_cast<std::int32_t>(*index);
-      continue;
+      return {static_cast<std::int32_t>(*index), {}};
     }
     const std::vector<std::string> owned = NameScope::names(in.scope(), NameScope::Kind::Materials);
     const std::vector<std::string_view> known(owned.begin(), owned.end());
-    in.own().error(ParamKind::String, kNames[i],
-                   "unknown material \"" + *name + "\"" + suggestion(*name, known));
-    complete = false;
+    tolerate(in.own(), ParamKind::String, parameter,
+             "unknown material \"" + *name + "\"" + suggestion(*name, known) + std::string(kMatte));
+  } else {
+    tolerate(in.own(), "parameter \"" + std::string(parameter) + "\" is missing" + std::string(kMatte));
   }
-  if (!complete) return {};
+  return {kNone, readMatte(in)};
+}
+
+Make readMix(Texturable& in) {
+  const auto amount = in.findRgb("amount", Rgb(0.5f));
+  const MixPart a = readMixPart(in, "namedmaterial1"), b = readMixPart(in, "namedmaterial2");
   return [=](Materials& m) -> std::unique_ptr<Material> {
-    const Material* first = m.buildShared(parts[0]);
-    const Material* second = m.buildShared(parts[1]);
+    const Material* first = a.build(m);
+    const Material* second = b.build(m);
     if (first == nullptr || second == nullptr)
       throw std::invalid_argument("cannot mix with a material of type \"none\"");
     return std::make_unique<MixMaterial>(*first, *second, *m.textures().rgbTexture(amount));
@@ -223,12 +229,11 @@ Materials::Materials(SceneDescription& scene, Textures& textures, Diagnostics& d
       continue;
     }
     Texturable texturable(in, d.scope);
-    const auto* plugin =
-        findPlugin<ReadMaterial>(kMaterials, d, d.name.empty() ? "Material" : context, diagnostics);
-    if (plugin == nullptr && diagnostics.strict) continue;  // reported; its parameters mean nothing
-    // PBRT-v3 makes a matte of an unknown material.
+    const auto* plugin = findPlugin<ReadMaterial>(
+        kMaterials, d, d.name.empty() ? "Material" : context,
+        "a matte of the same parameters takes its place, as in PBRT-v3", diagnostics);
     plans_[i] = plugin != nullptr ? plugin->read(texturable) : readMatte(texturable);
-    in.reportUnused();
+    if (plugin != nullptr) in.reportUnused();  // of an unknown one nobody can tell what is right
   }
 }
 
@@ -259,15 +264,14 @@ Materials::Use Materials::readForShape(const ShapeDescription& shape, ParamReade
   for (const auto& plugin : kMaterials) {
     if (plugin.name == d.type) read = &plugin.read;
   }
-  if (read == nullptr && diagnostics.strict) {
-    for (const Param& param : shape.params.all())
-      param.used = true;  // nobody can tell whether they are right
-    return use;
-  }
   ParamReader own(d, diagnostics, contextOf(d));
   Texturable texturable(in, shape.scope, own, d.scope);
   const std::size_t before = diagnostics.errorCount();
   Make make = read != nullptr ? (*read)(texturable) : readMatte(texturable);
+  if (read == nullptr) {
+    for (const Param& param : shape.params.all())
+      param.used = true;  // nobody can tell whether they are right
+  }
   if (texturable.shapeOverrides() && diagnostics.errorCount() == before) use.own = std::move(make);
   return use;
 }

@@ -10,7 +10,7 @@
 namespace pbrtmedia {
 namespace {
 
-using ReadMedium = std::optional<MediumPlan> (*)(ParamReader&, const MediumDescription&);
+using ReadMedium = std::optional<MediumPlan> (*)(const MediumInput&);
 
 constexpr std::array<Plugin<ReadMedium>, 6> kMedia = {{{"homogeneous", readHomogeneousMedium},
                                                        {"heterogeneous", readHeterogeneousMedium},
@@ -21,22 +21,20 @@ constexpr std::array<Plugin<ReadMedium>, 6> kMedia = {{{"homogeneous", readHomog
 
 }  // namespace
 
-std::optional<MediumPlan> readMedium(MediumDescription& medium, Diagnostics& diagnostics) {
+std::optional<MediumPlan> readMedium(MediumDescription& medium, bool isUsed, Diagnostics& diagnostics,
+                                     Diagnostics& building) {
   const std::string context = "medium \"" + medium.name + "\"";
-  const auto* plugin = findPlugin<ReadMedium>(kMedia, medium, context, diagnostics);
+  const auto* plugin =
+      findPlugin<ReadMedium>(kMedia, medium, context, "it is vacuum, as in PBRT-v3", diagnostics);
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(medium, diagnostics, context);
   if (medium.ctm->isAnimated()) {
     diagnostics.warning(medium.location,
                         context + ": media do not move; the transformation of the start time is used");
   }
-  if (medium.ctm->start.isSingular()) {
-    in.error("the transformation is singular: it has no inverse");
-    return std::nullopt;
-  }
-  std::optional<MediumPlan> plan = plugin->read(in, medium);
+  std::optional<MediumPlan> plan = plugin->read({in, medium, isUsed, building});
+  if (!plan) return std::nullopt;  // who stopped early has not asked for all that there is
   in.reportUnused();
-  if (!plan) return std::nullopt;
   return [plan = std::move(*plan), location = medium.location, context](Textures& textures) {
     return builtAt(location, context, [&] { return plan(textures); });
   };

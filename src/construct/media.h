@@ -17,7 +17,10 @@ class Textures;
 /// May throw SceneError.
 using MediumPlan = std::function<std::unique_ptr<Medium>(Textures&)>;
 
-/// Reads a MakeNamedMedium. Nothing for an unknown type or after an error.
-std::optional<MediumPlan> readMedium(MediumDescription& medium, Diagnostics& diagnostics);
+/// Reads a MakeNamedMedium. Nothing after an error, and for what PBRT-v3 takes as vacuum: an unknown type, a
+/// density that does not fit. `isUsed`: false leaves files closed. `building` takes what is found while the
+/// plan is carried out, and must outlive it.
+std::optional<MediumPlan> readMedium(MediumDescription& medium, bool isUsed, Diagnostics& diagnostics,
+                                     Diagnostics& building);
 
 }  // namespace pbrtmedia

@@ -47,7 +47,9 @@ Box read(ParamReader& in, Needle& needle) {
 
 }  // namespace
 
-std::optional<MediumPlan> readAnalyticMedium(ParamReader& in, const MediumDescription& medium) {
+std::optional<MediumPlan> readAnalyticMedium(const MediumInput& input) {
+  ParamReader& in = input.in;
+  const MediumDescription& medium = input.medium;
   ProceduralMediumParams p;
   readFieldMediumParams(in, medium, DensityKind::Procedural, p);
   const std::optional<std::string> name = in.optionalString("function");

@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "construct/tolerance.h"
 #include "construct/tracking_parameters.h"
 
 namespace pbrtmedia {
@@ -58,7 +59,7 @@ BoundsParams readBounds(ParamReader& in, BoundsParams::Source fallback) {
   BoundsParams p;
   p.cells = readCells(in);
   p.source = static_cast<BoundsParams::Source>(
-      in.findChoice("bounds", kSources, static_cast<std::size_t>(fallback)));
+      findOwnChoice(in, "bounds", kSources, static_cast<std::size_t>(fallback)));
   const auto belongsTo = [&](BoundsParams::Source source, std::string_view name) {
     if (p.source == source || !in.has(ParamKind::Float, name)) return p.source == source;
     std::string text = "needs \"string bounds\" \"";

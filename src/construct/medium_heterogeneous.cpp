@@ -9,6 +9,8 @@
 #include "construct/medium_params.h"
 #include "construct/plugins.h"
 #include "construct/raw_grid.h"
+#include "construct/tolerance.h"
+#include "construct/volume_file.h"
 #include "media/grid_medium.h"
 
 namespace pbrtmedia {
@@ -25,24 +27,18 @@ std::string sizeText(const GridField::Params& grid) {
   return text;
 }
 
-/// The density that stands in the scene. False after an error.
+/// The density that stands in the scene. False if it does not fit, which PBRT-v3 takes as vacuum.
 bool takeDensity(ParamReader& in, std::size_t expected, GridField::Params& grid) {
   const std::size_t found = in.floats("density").size();
   if (found != expected) {
-    in.error(
-        ParamKind::Float, "density",
-        "found " + std::to_string(found) + " values, expected " + sizeText(grid) + std::to_string(expected));
+    tolerate(in, ParamKind::Float, "density",
+             "found " + std::to_string(found) + " values, expected " + sizeText(grid) +
+                 std::to_string(expected) + "; the medium is vacuum, as in PBRT-v3");
     return false;
   }
   grid.density = in.takeFloats("density");
-  for (std::size_t i = 0; i < expected; ++i) {
-    if (grid.density[i] >= 0) continue;
-    const std::size_t nx = static_cast<std::size_t>(grid.nx), ny = static_cast<std::size_t>(grid.ny);
-    in.error(ParamKind::Float, "density",
-             "voxel (" + std::to_string(i % nx) + ", " + std::to_string(i / nx % ny) + ", " +
-                 std::to_string(i / (nx * ny)) + ") is negative: " + std::to_string(grid.density[i]));
-    return false;
-  }
+  const SourceLocation at = in.locationOf(ParamKind::Float, "density");
+  clampNegatives(grid.density, grid.nx, grid.ny, "parameter \"density\"", at, in.context(), in.diagnostics());
   return true;
 }
 
@@ -53,9 +49,8 @@ struct RawFile {
 };
 
 /// Null after an error. Compares sizes before anything is unpacked that would not fit.
-std::shared_ptr<const RawFile> openRaw(ParamReader& in, const std::filesystem::path& path,
+std::shared_ptr<const RawFile> openRaw(ParamReader& in, const std::filesystem::path& path, RawFormat format,
                                        std::size_t expected, const GridField::Params& grid) {
-  const auto format = static_cast<RawFormat>(in.findChoice("format", kRawFormats, 0));
   const std::size_t bytes = expected * bytesOf(format);
   const auto refuse = [&](std::size_t found) {
     std::string text = '"' + path.string() + "\" holds ";
@@ -80,36 +75,56 @@ std::shared_ptr<const RawFile> openRaw(ParamReader& in, const std::filesystem::p
 
 }  // namespace
 
-std::optional<MediumPlan> readHeterogeneousMedium(ParamReader& in, const MediumDescription& medium) {
-  const std::optional<std::filesystem::path> path = in.findInputFile("filename");
-  if (path && path->extension() == ".nvdb") return readNanoVdbMedium(in, medium);
+std::optional<MediumPlan> readHeterogeneousMedium(const MediumInput& input) {
+  ParamReader& in = input.in;
+  const Transform place = input.medium.ctm->start;
+  const bool hasFile = !in.findString("filename", "").empty();
+  std::optional<std::filesystem::path> path;
+  if (hasFile) path = requireVolumeFile(in);
+  if (path && (path->extension() == ".nvdb" || volumeFileOf(*path) == VolumeFile::NanoVdb)) {
+    return readNanoVdbMedium(input);
+  }
   auto p = std::make_shared<GridMediumParams>();
-  readFieldMediumParams(in, medium, DensityKind::InPieces, *p);
+  readFieldMediumParams(in, input.medium, DensityKind::InPieces, *p);
   GridField::Params& grid = p->grid;
-  const Range size = Range::closed(1, 1 << 20);
+  const std::size_t errorsBefore = in.diagnostics().errorCount();
+  const Range size{.max = 1 << 20};
   grid.nx = in.findInt("nx", 1, size);
   grid.ny = in.findInt("ny", 1, size);
   grid.nz = in.findInt("nz", 1, size);
   constexpr std::array<std::string_view, 2> kBorders = {"zero", "clamp"}, kPrecisions = {"float", "half"};
   constexpr std::array<std::string_view, 3> kLayouts = {"automatic", "linear", "bricked"};
-  grid.border = static_cast<GridBorder>(in.findChoice("border", kBorders, 0));
-  grid.precision = static_cast<GridPrecision>(in.findChoice("precision", kPrecisions, 0));
-  grid.layout = static_cast<GridLayout>(in.findChoice("layout", kLayouts, 0));
-  if (!readMediumBox(in, grid.p0, grid.p1)) return std::nullopt;
+  grid.border = static_cast<GridBorder>(findOwnChoice(in, "border", kBorders, 0));
+  grid.precision = static_cast<GridPrecision>(findOwnChoice(in, "precision", kPrecisions, 0));
+  grid.layout = static_cast<GridLayout>(findOwnChoice(in, "layout", kLayouts, 0));
+  const bool hasRoom = readMediumBox(in, grid.p0, grid.p1);
+  const bool isInline = in.has(ParamKind::Float, "density");
+  if (std::min({grid.nx, grid.ny, grid.nz}) < 1) {
+    tolerate(in, "found a grid of " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) + " x " +
+                     std::to_string(grid.nz) +
+                     " samples (nx, ny, nz), expected at least 1 each; the medium is "
+                     "vacuum, as in PBRT-v3");
+    return std::nullopt;
+  }
+  if (!hasRoom || in.diagnostics().errorCount() > errorsBefore) return std::nullopt;
   const std::size_t expected = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny) *
                                static_cast<std::size_t>(grid.nz);
-  const EmissionPlan emission = readGridEmission(in, grid, *p);
-  const bool isInline = in.has(ParamKind::Float, "density");
-  if (in.has(ParamKind::String, "filename")) {
+  const EmissionPlan emission = readGridEmission(input, grid, *p);
+  if (hasFile) {
     if (isInline) in.error(ParamKind::String, "filename", "\"float density\" is given too: one of them");
     if (!path || isInline) return std::nullopt;
-    std::shared_ptr<const RawFile> file = openRaw(in, *path, expected, grid);
+    const auto format = static_cast<RawFormat>(findOwnChoice(in, "format", kRawFormats, 0));
+    if (!input.isUsed) return std::nullopt;  // it is there; more is not asked of what nobody sees
+    std::shared_ptr<const RawFile> file = openRaw(in, *path, format, expected, grid);
     if (!file) return std::nullopt;
-    return [p, file = std::move(file), emission, place = medium.ctm->start, context = in.context(),
-            named = in.locationOf(ParamKind::String, "filename")](Textures&) mutable {
+    return [p, file = std::move(file), emission, place, context = in.context(),
+            named = in.locationOf(ParamKind::String, "filename"),
+            &building = input.building](Textures&) mutable {
       if (emission) p->emissionPattern = emission(place);
-      p->grid.density = decodeRaw(file->bytes, file->format);
+      GridField::Params& read = p->grid;
+      read.density = decodeRaw(file->bytes, file->format);
       file.reset();
+      clampNegatives(read.density, read.nx, read.ny, "the file", named, context, building);
       return builtAt(named, context, [&] {
         auto made = makeGridMedium(*p, place);
         *p = {};
@@ -118,11 +133,14 @@ std::optional<MediumPlan> readHeterogeneousMedium(ParamReader& in, const MediumD
     };
   }
   if (!isInline) {
-    in.error("parameter \"float density\" or \"string filename\" is missing");
+    tolerate(in,
+             "parameter \"float density\" (or \"string filename\") is missing; the medium is vacuum, as in "
+             "PBRT-v3");
+    in.reportUnused();  // it may stand there under another type
     return std::nullopt;
   }
   if (!takeDensity(in, expected, grid)) return std::nullopt;
-  return [p, emission, place = medium.ctm->start](Textures&) {
+  return [p, emission, place](Textures&) {
     if (emission) p->emissionPattern = emission(place);
     auto made = makeGridMedium(*p, place);
     *p = {};  // the input values are not needed any more

@@ -5,9 +5,9 @@
 
 namespace pbrtmedia {
 
-std::optional<MediumPlan> readHomogeneousMedium(ParamReader& in, const MediumDescription& medium) {
+std::optional<MediumPlan> readHomogeneousMedium(const MediumInput& input) {
   HomogeneousMedium::Params p;
-  readMediumParams(in, medium, p);
+  readMediumParams(input.in, input.medium, p);
   return [p](Textures&) { return std::make_unique<HomogeneousMedium>(p); };
 }
 

@@ -8,13 +8,22 @@
 
 namespace pbrtmedia {
 
-// One reader for each class of medium: all parameters checked, problems reported. Nothing after an error.
+/// What a reader of media gets.
+struct MediumInput {
+  ParamReader& in;
+  const MediumDescription& medium;
+  bool isUsed;            ///< false: files need only be there
+  Diagnostics& building;  ///< for what is found while the plan is carried out
+};
 
-std::optional<MediumPlan> readHomogeneousMedium(ParamReader& in, const MediumDescription& medium);
-std::optional<MediumPlan> readHeterogeneousMedium(ParamReader& in, const MediumDescription& medium);
-std::optional<MediumPlan> readNanoVdbMedium(ParamReader& in, const MediumDescription& medium);
-std::optional<MediumPlan> readPerlinMedium(ParamReader& in, const MediumDescription& medium);
-std::optional<MediumPlan> readAnalyticMedium(ParamReader& in, const MediumDescription& medium);
-std::optional<MediumPlan> readTextureMedium(ParamReader& in, const MediumDescription& medium);
+// One reader for each class of medium: all parameters checked, problems reported. Nothing after an error, and
+// for what PBRT-v3 takes as vacuum.
+
+std::optional<MediumPlan> readHomogeneousMedium(const MediumInput& input);
+std::optional<MediumPlan> readHeterogeneousMedium(const MediumInput& input);
+std::optional<MediumPlan> readNanoVdbMedium(const MediumInput& input);
+std::optional<MediumPlan> readPerlinMedium(const MediumInput& input);
+std::optional<MediumPlan> readAnalyticMedium(const MediumInput& input);
+std::optional<MediumPlan> readTextureMedium(const MediumInput& input);
 
 }  // namespace pbrtmedia

@@ -8,6 +8,7 @@
 #include "construct/freeflight.h"
 #include "construct/medium_bounds.h"
 #include "construct/phase.h"
+#include "construct/tolerance.h"
 #include "construct/transmittance.h"
 #include "media/presets.h"
 
@@ -22,25 +23,20 @@ void readMediumParams(ParamReader& in, const MediumDescription& medium, MediumPa
     } else {
       std::vector<std::string_view> names;
       for (const MediumPreset& known : mediumPresets()) names.push_back(known.name);
-      in.diagnostics().tolerated(
-          in.locationOf(ParamKind::String, "preset"),
-          in.context() + ": unknown preset \"" + *name + "\"" + suggestion(*name, names));
+      tolerate(in, ParamKind::String, "preset",
+               "unknown preset \"" + *name + "\"" + suggestion(*name, names) +
+                   "; the defaults are taken, as in PBRT-v3");
     }
   }
   const float scale = in.findFloat("scale", 1, Range::nonNegative());
-  p.sigmaA = in.findSpectrum("sigma_a", p.sigmaA) * scale;
-  p.sigmaS = in.findSpectrum("sigma_s", p.sigmaS) * scale;
-  for (const auto& [name, sigma] :
-       {std::pair<std::string_view, Rgb>{"sigma_a", p.sigmaA}, {"sigma_s", p.sigmaS}}) {
-    if (sigma.min() < 0)
-      in.error(ParamKind::Spectrum, name, "found a negative coefficient, expected numbers >= 0");
-  }
+  p.sigmaA = nonNegative(in, "sigma_a", in.findSpectrum("sigma_a", p.sigmaA)) * scale;
+  p.sigmaS = nonNegative(in, "sigma_s", in.findSpectrum("sigma_s", p.sigmaS)) * scale;
   readEmission(in, medium, p);
   p.phase = readPhase(in);
 
   constexpr std::array<std::string_view, 3> kRules = {"boundary", "add", "priority"};
   p.overlap.mode = std::array{OverlapRule::Mode::Boundary, OverlapRule::Mode::Add,
-                              OverlapRule::Mode::Priority}[in.findChoice("overlap", kRules, 0)];
+                              OverlapRule::Mode::Priority}[findOwnChoice(in, "overlap", kRules, 0)];
   if (const std::optional<int> priority = in.optionalInt("priority")) {
     // A priority alone says which rule is meant.
     if (!in.has(ParamKind::String, "overlap")) p.overlap.mode = OverlapRule::Mode::Priority;
@@ -76,8 +72,8 @@ void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, Den
     in.error(ParamKind::String, "law", "a medium that emits (Le) follows the exponential law only");
   }
   p.sampler = readFreeFlight(in, law, walksPieces, p.sigmaS.max() > 0);
-  p.pattern =
-      static_cast<PatternKind>(in.findChoice("pattern", kPatternNames, static_cast<std::size_t>(p.pattern)));
+  p.pattern = static_cast<PatternKind>(
+      findOwnChoice(in, "pattern", kPatternNames, static_cast<std::size_t>(p.pattern)));
   if (const float sigmaT = (p.sigmaA + p.sigmaS).max();
       sigmaT > 0 && !std::isfinite(p.bounds.majorant / sigmaT)) {
     in.error(ParamKind::Float, "majorant", "divided by the largest sigma_t it is no finite density");

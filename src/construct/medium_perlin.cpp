@@ -6,7 +6,9 @@
 
 namespace pbrtmedia {
 
-std::optional<MediumPlan> readPerlinMedium(ParamReader& in, const MediumDescription& medium) {
+std::optional<MediumPlan> readPerlinMedium(const MediumInput& input) {
+  ParamReader& in = input.in;
+  const MediumDescription& medium = input.medium;
   ProceduralMediumParams p;
   readFieldMediumParams(in, medium, DensityKind::Procedural, p);
   PerlinDensity::Params noise;

@@ -8,14 +8,17 @@
 
 namespace pbrtmedia {
 
-std::optional<MediumPlan> readTextureMedium(ParamReader& in, const MediumDescription& medium) {
+std::optional<MediumPlan> readTextureMedium(const MediumInput& input) {
+  ParamReader& in = input.in;
+  const MediumDescription& medium = input.medium;
   ProceduralMediumParams p;
   p.bounds.source = BoundsParams::Source::Progressive;
   readFieldMediumParams(in, medium, DensityKind::Procedural, p);
+  // A parameter of ours: where PBRT-v3 has a default for textures, here the subject would be missing.
+  const std::string name = in.findTextureName("density").value_or("");
   const auto use = Texturable(in, medium.scope).optionalFloat("density", Range::nonNegative());
-  if (!use) {
-    if (!in.has(ParamKind::Texture, "density") && !in.has(ParamKind::Float, "density"))
-      in.error("parameter \"texture density\" is missing: the name of a float texture");
+  if (!use || (name.empty() && in.has(ParamKind::Texture, "density"))) {
+    in.error("parameter \"texture density\": expected the name of a float texture that is defined");
     return std::nullopt;
   }
   if (p.bounds.source == BoundsParams::Source::Exact) {
@@ -24,8 +27,11 @@ std::optional<MediumPlan> readTextureMedium(ParamReader& in, const MediumDescrip
              "\"float majorant\"");
   }
   if (!readMediumBox(in, p.field.p0, p.field.p1)) return std::nullopt;
-  const std::string name = in.findTextureName("density").value_or("");
   return [p, use = *use, name, place = medium.ctm->start](Textures& textures) mutable {
+    if (!use.isConstant() && textures.isUnusable(use.texture)) {
+      throw SceneError(SourceLocation{},
+                       "the texture \"" + name + "\" of its density has no values of its own");
+    }
     p.field.function = std::make_shared<TextureDensity>(*textures.floatTexture(use), name, place);
     return makeProceduralMedium(p, "texture", place);
   };

@@ -20,20 +20,28 @@ struct Plugin {
   Read read;
 };
 
-/// The entry named by the entity's type. An unknown name is reported with the nearest ones (--lenient: a
-/// warning) and gives null. `kind` starts the message: "Camera", "texture class", …
+/// The entry named by the entity's type. An unknown name is reported with the nearest ones and gives null.
+/// `kind` starts the message: "Camera", "texture class", …  `consequence`: what PBRT-v3 does then ("the shape
+/// is left out"), which makes it a tolerated problem; "" where nothing could be rendered: an error.
 template <class Read>
 const Plugin<Read>* findPlugin(std::span<const Plugin<Read>> table, const Entity& entity,
-                               std::string_view kind, Diagnostics& diagnostics) {
+                               std::string_view kind, std::string_view consequence,
+                               Diagnostics& diagnostics) {
   std::vector<std::string_view> names;
   for (const Plugin<Read>& plugin : table) {
     if (plugin.name == entity.type) return &plugin;
     names.push_back(plugin.name);
   }
-  const bool hasTypeLocation = entity.typeLocation.file != nullptr;
-  diagnostics.tolerated(
-      hasTypeLocation ? entity.typeLocation : entity.location,
-      std::string(kind) + ": unknown type \"" + entity.type + "\"" + suggestion(entity.type, names));
+  const SourceLocation& at = entity.typeLocation.file != nullptr ? entity.typeLocation : entity.location;
+  std::string message(kind);
+  message += ": unknown type \"" + entity.type + "\"" + suggestion(entity.type, names);
+  if (consequence.empty()) {
+    diagnostics.error(at, std::move(message));
+  } else {
+    message += "; ";
+    message += consequence;
+    diagnostics.tolerated(at, std::move(message));
+  }
   return nullptr;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "construct/plugins.h"
+#include "construct/tolerance.h"
 #include "samplers/halton.h"
 #include "samplers/max_min_dist.h"
 #include "samplers/random.h"
@@ -22,12 +23,12 @@ using ReadSampler = std::unique_ptr<Sampler> (*)(ParamReader&, const ConstructOp
 /// --spp, else 1 for --quick, else "pixelsamples".
 std::int64_t readPixelSamples(ParamReader& in, const ConstructOptions& options, std::int64_t fallback,
                               bool quickIsOne = true) {
-  const std::int64_t asked = in.findInt("pixelsamples", static_cast<int>(fallback), Range::atLeast(1));
+  const std::int64_t asked = findIntWithin(in, "pixelsamples", static_cast<int>(fallback), Range::atLeast(1));
   if (options.samplesPerPixel) return *options.samplesPerPixel;
   return options.quick && quickIsOne ? 1 : asked;
 }
 
-int readDimensions(ParamReader& in) { return in.findInt("dimensions", 4, Range::closed(0, 1 << 16)); }
+int readDimensions(ParamReader& in) { return findIntWithin(in, "dimensions", 4, Range::closed(0, 1 << 16)); }
 
 std::unique_ptr<Sampler> readHalton(ParamReader& in, const ConstructOptions& options) {
   HaltonSampler::Params p;
@@ -70,8 +71,8 @@ std::unique_ptr<Sampler> readMaxMinDist(ParamReader& in, const ConstructOptions&
 std::unique_ptr<Sampler> readStratified(ParamReader& in, const ConstructOptions& options) {
   StratifiedSampler::Params p;
   const Range range = Range::closed(1, 1 << 15);
-  p.xSamples = in.findInt("xsamples", p.xSamples, range);
-  p.ySamples = in.findInt("ysamples", p.ySamples, range);
+  p.xSamples = findIntWithin(in, "xsamples", p.xSamples, range);
+  p.ySamples = findIntWithin(in, "ysamples", p.ySamples, range);
   p.jitter = in.findBool("jitter", p.jitter);
   p.dimensions = readDimensions(in);
   p.seed = options.seed;
@@ -108,7 +109,7 @@ void warnIfRounded(const ParamReader& in, const ConstructOptions& options, std::
     const auto& counts = std::get<std::vector<int>>(given->values);
     if (counts.size() == 1) asked = counts.front();
   }
-  if (!asked || *asked == taken) return;
+  if (!asked || *asked < 1 || *asked == taken) return;
   diagnostics.warning(in.locationOf(ParamKind::Integer, "pixelsamples"),
                       in.context() + ": " + std::to_string(*asked) + " samples per pixel are rounded up to " +
                           std::to_string(taken) + ", a power of two");
@@ -120,12 +121,8 @@ std::unique_ptr<Sampler> readSampler(SceneDescription& scene, const ConstructOpt
                                      Diagnostics& diagnostics) {
   Entity& entity = scene.sampler;
   if (!entity.given) entity.type = "halton";
-  const auto* plugin = findPlugin<ReadSampler>(kSamplers, entity, "Sampler", diagnostics);
-  if (plugin == nullptr) {
-    if (!diagnostics.strict)
-      diagnostics.error(entity.typeLocation, "Sampler: nothing can be rendered without a sampler");
-    return nullptr;
-  }
+  const auto* plugin = findPlugin<ReadSampler>(kSamplers, entity, "Sampler", "", diagnostics);
+  if (plugin == nullptr) return nullptr;
   ParamReader in(entity, diagnostics, "Sampler \"" + entity.type + "\"");
   const std::size_t before = diagnostics.errorCount();
   std::unique_ptr<Sampler> sampler;

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "construct/shapes.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <initializer_list>
 #include <utility>
 
 #include "construct/plugins.h"
+#include "construct/tolerance.h"
 #include "shapes/cone.h"
 #include "shapes/cylinder.h"
 #include "shapes/disk.h"
@@ -21,6 +26,8 @@
 namespace pbrtmedia {
 namespace {
 
+constexpr std::string_view kLeftOut = "; the shape is left out, as in PBRT-v3";
+
 /// What a reader of shapes gets.
 struct ShapeInput {
   ShapeDescription& shape;
@@ -29,21 +36,40 @@ struct ShapeInput {
 };
 using ReadShape = ShapePlan (*)(const ShapeInput&);
 
-/// A quadric is cheap: it is made at once, so that its own checks are part of the reading.
+ShapePlan planOf(std::function<std::unique_ptr<Shape>(Diagnostics&)> make) {
+  ShapePlan plan;
+  plan.make = std::move(make);
+  return plan;
+}
+
+/// A quadric is cheap: it is made at once, so that its own checks are part of the reading. One of which
+/// nothing is left is left out.
 template <class Quadric>
 ShapePlan planQuadric(const ShapeInput& input, const typename Quadric::Params& params) {
   try {
     auto made = std::make_shared<std::unique_ptr<Shape>>(std::make_unique<Quadric>(params, input.placement));
-    return ShapePlan{[made](Diagnostics&) { return std::move(*made); }, std::nullopt, std::nullopt};
+    return planOf([made](Diagnostics&) { return std::move(*made); });
   } catch (const std::invalid_argument& e) {
-    input.in.error(e.what());
+    tolerate(input.in, e.what() + std::string(kLeftOut));
     return {};
   }
 }
 
+/// "radius". A negative one is that of the same surface without its sign.
+float readRadius(ParamReader& in, float fallback) {
+  const float radius = in.findFloat("radius", fallback);
+  if (radius < 0) {
+    tolerate(in, ParamKind::Float, "radius",
+             "found " + shownNumber(radius) +
+                 ", expected a number > 0; taken without its sign; PBRT-v3 shades "
+                 "such a surface wrongly");
+  }
+  return std::abs(radius);
+}
+
 ShapePlan readSphere(const ShapeInput& input) {
   Sphere::Params p;
-  p.radius = input.in.findFloat("radius", p.radius);
+  p.radius = readRadius(input.in, p.radius);
   p.zmin = input.in.optionalFloat("zmin");
   p.zmax = input.in.optionalFloat("zmax");
   p.phimax = input.in.findFloat("phimax", p.phimax);
@@ -52,7 +78,7 @@ ShapePlan readSphere(const ShapeInput& input) {
 
 ShapePlan readCylinder(const ShapeInput& input) {
   Cylinder::Params p;
-  p.radius = input.in.findFloat("radius", p.radius);
+  p.radius = readRadius(input.in, p.radius);
   p.zmin = input.in.findFloat("zmin", p.zmin);
   p.zmax = input.in.findFloat("zmax", p.zmax);
   p.phimax = input.in.findFloat("phimax", p.phimax);
@@ -62,7 +88,7 @@ ShapePlan readCylinder(const ShapeInput& input) {
 ShapePlan readDisk(const ShapeInput& input) {
   Disk::Params p;
   p.height = input.in.findFloat("height", p.height);
-  p.radius = input.in.findFloat("radius", p.radius);
+  p.radius = readRadius(input.in, p.radius);
   p.innerradius = input.in.findFloat("innerradius", p.innerradius);
   p.phimax = input.in.findFloat("phimax", p.phimax);
   return planQuadric<Disk>(input, p);
@@ -70,7 +96,7 @@ ShapePlan readDisk(const ShapeInput& input) {
 
 ShapePlan readCone(const ShapeInput& input) {
   Cone::Params p;
-  p.radius = input.in.findFloat("radius", p.radius);
+  p.radius = readRadius(input.in, p.radius);
   p.height = input.in.findFloat("height", p.height);
   p.phimax = input.in.findFloat("phimax", p.phimax);
   return planQuadric<Cone>(input, p);
@@ -78,7 +104,7 @@ ShapePlan readCone(const ShapeInput& input) {
 
 ShapePlan readParaboloid(const ShapeInput& input) {
   Paraboloid::Params p;
-  p.radius = input.in.findFloat("radius", p.radius);
+  p.radius = readRadius(input.in, p.radius);
   p.zmin = input.in.findFloat("zmin", p.zmin);
   p.zmax = input.in.findFloat("zmax", p.zmax);
   p.phimax = input.in.findFloat("phimax", p.phimax);
@@ -124,21 +150,47 @@ std::pair<ParamKind, std::string_view> writtenAs(ParamReader& in, std::string_vi
   return kUvNames.front();
 }
 
-/// Reports them; true when the mesh can be made.
-bool report(const ShapeInput& input, const std::vector<MeshProblem>& problems) {
+/// Whether the mesh stands without an array: PBRT-v3 drops one that does not fit.
+bool isOptional(std::string_view array) {
+  return array == "N" || array == "S" || array == "uv" || array == "faceIndices";
+}
+
+/// Empties an optional array.
+void drop(std::string_view array, TriangleMesh::Params& params) {
+  if (array == "N") params.N.clear();
+  if (array == "S") params.S.clear();
+  if (array == "uv") params.uv.clear();
+  if (array == "faceIndices") params.faceIndices.clear();
+}
+
+/// Hands each problem to `tell`, as a text that says what is done; drops arrays that do not fit. Whether a
+/// mesh is left.
+template <class Tell>
+bool mend(TriangleMesh::Params& params, const std::vector<MeshProblem>& problems, const Tell& tell) {
   bool usable = true;
   for (const MeshProblem& problem : problems) {
-    const auto& [kind, name] = writtenAs(input.in, problem.parameter);
+    std::string message = problem.message;
     if (problem.severity == Severity::Error) {
-      input.in.error(kind, name, problem.message);
-      usable = false;
-    } else {
-      input.in.diagnostics().warning(
-          input.in.locationOf(kind, name),
-          input.in.context() + ": parameter \"" + std::string(name) + "\": " + problem.message);
+      if (isOptional(problem.parameter)) {
+        drop(problem.parameter, params);
+        message += "; the array is left out, as in PBRT-v3";
+      } else {
+        usable = false;
+        message += kLeftOut;
+      }
     }
+    tell(problem, message);
   }
   return usable;
+}
+
+/// Mends the mesh of a Shape directive.
+bool mend(const ShapeInput& input, TriangleMesh::Params& params) {
+  return mend(params, TriangleMesh::validate(params),
+              [&](const MeshProblem& problem, const std::string& message) {
+                const auto& [kind, name] = writtenAs(input.in, problem.parameter);
+                tolerate(input.in, kind, name, message);
+              });
 }
 
 std::vector<Point2f> takeUv(ParamReader& in) {
@@ -152,36 +204,50 @@ std::vector<Point2f> takeUv(ParamReader& in) {
       continue;
     }
     const std::span<const float> numbers = in.floats(name);
-    if (numbers.size() % 2 != 0)
-      in.error(kind, name, "found " + std::to_string(numbers.size()) + " numbers, expected pairs");
+    if (numbers.size() % 2 != 0) {
+      tolerate(in, kind, name,
+               "found " + std::to_string(numbers.size()) + " numbers, expected pairs; the last is left out");
+    }
     uv.resize(numbers.size() / 2);
     for (std::size_t i = 0; i < uv.size(); ++i) uv[i] = {numbers[2 * i], numbers[2 * i + 1]};
   }
   return uv;
 }
 
-template <class Params>
-ShapePlan planMesh(const ShapeInput& input, std::string_view typeName, std::shared_ptr<Params> params) {
-  const ShapePlacement placement = input.placement;
-  return {[params, placement, typeName](Diagnostics&) -> std::unique_ptr<Shape> {
-            return std::make_unique<TriangleMesh>(std::move(*params), placement, typeName);
-          },
-          std::nullopt, std::nullopt};
+/// A mesh in its place.
+std::unique_ptr<Shape> placedMesh(TriangleMesh::Params params, const ShapePlacement& placement,
+                                  std::string_view typeName) {
+  return std::make_unique<TriangleMesh>(std::move(params), placement, typeName);
 }
 
-/// Whether all are there.
-bool require(ParamReader& in, std::initializer_list<std::pair<ParamKind, std::string_view>> parameters) {
+ShapePlan planMesh(const ShapeInput& input, std::string_view typeName,
+                   std::shared_ptr<TriangleMesh::Params> params) {
+  return planOf([params, placement = input.placement, typeName](Diagnostics&) {
+    return placedMesh(std::move(*params), placement, typeName);
+  });
+}
+
+/// Whether all are there; `consequence` says what happens if not ("": an error).
+bool require(ParamReader& in, std::initializer_list<std::pair<ParamKind, std::string_view>> parameters,
+             std::string_view consequence) {
   bool complete = true;
   for (const auto& [kind, name] : parameters) {
     if (in.has(kind, name)) continue;
-    in.error("parameter \"" + std::string(keyword(kind)) + ' ' + std::string(name) + "\" is missing");
+    std::string message =
+        "parameter \"" + std::string(keyword(kind)) + ' ' + std::string(name) + "\" is missing";
     complete = false;
+    if (consequence.empty()) {
+      in.error(message);
+    } else {
+      tolerate(in, message + std::string(consequence));
+    }
   }
   return complete;
 }
 
 ShapePlan readTriangleMesh(const ShapeInput& input) {
-  const bool complete = require(input.in, {{ParamKind::Integer, "indices"}, {ParamKind::Point3, "P"}});
+  const bool complete =
+      require(input.in, {{ParamKind::Integer, "indices"}, {ParamKind::Point3, "P"}}, kLeftOut);
   auto params = std::make_shared<TriangleMesh::Params>();
   params->indices = input.in.takeInts("indices");
   params->P = input.in.takePoint3s("P");
@@ -191,93 +257,127 @@ ShapePlan readTriangleMesh(const ShapeInput& input) {
   params->faceIndices = input.in.takeInts("faceIndices");
   ShapePlan alphas;
   readAlpha(input, alphas);
-  if (!complete || !report(input, TriangleMesh::validate(*params))) return {};
-  ShapePlan plan = planMesh(input, "trianglemesh", std::move(params));
-  plan.alpha = alphas.alpha;
-  plan.shadowAlpha = alphas.shadowAlpha;
+  if (!complete || !mend(input, *params)) return {};
+  ShapePlan plan = std::move(alphas);
+  plan.make = planMesh(input, "trianglemesh", std::move(params)).make;
   return plan;
 }
 
 ShapePlan readLoopSubdivision(const ShapeInput& input) {
-  const bool complete = require(input.in, {{ParamKind::Integer, "indices"}, {ParamKind::Point3, "P"}});
+  ParamReader& in = input.in;
+  const bool complete = require(in, {{ParamKind::Integer, "indices"}, {ParamKind::Point3, "P"}}, kLeftOut);
   auto params = std::make_shared<LoopSubdivisionParams>();
-  const Range levels = Range::closed(0, LoopSubdivisionParams::kMaxLevels);
-  const std::optional<int> alias = input.in.optionalInt("nlevels", levels);
-  params->levels = input.in.findInt("levels", alias.value_or(params->levels), levels);
-  input.in.findString("scheme", "");  // accepted and ignored by PBRT-v3 too
-  params->indices = input.in.takeInts("indices");
-  params->P = input.in.takePoint3s("P");
-  if (!complete || !report(input, validateLoop(*params))) return {};
-  const ShapePlacement placement = input.placement;
-  return ShapePlan{[params, placement](Diagnostics&) -> std::unique_ptr<Shape> {
-                     return std::make_unique<TriangleMesh>(subdivideLoop(*params), placement, "loopsubdiv");
-                   },
-                   std::nullopt, std::nullopt};
+  // PBRT-v3 has no levels below 0; too many are refused, as they fill any memory.
+  constexpr Range kAtMost{.max = LoopSubdivisionParams::kMaxLevels};
+  const std::size_t errorsBefore = in.diagnostics().errorCount();
+  const std::optional<int> alias = in.optionalInt("nlevels", kAtMost);
+  params->levels = in.findInt("levels", alias.value_or(params->levels), kAtMost);
+  if (params->levels < 0) {
+    tolerate(in, "found " + std::to_string(params->levels) + " levels, expected at least 0; taken as 0");
+    params->levels = 0;
+  }
+  in.findString("scheme", "");  // accepted and ignored by PBRT-v3 too
+  params->indices = in.takeInts("indices");
+  params->P = in.takePoint3s("P");
+  if (!complete || in.diagnostics().errorCount() > errorsBefore) return {};
+  if (params->P.empty() || params->indices.empty()) {
+    tolerate(in, std::string("the mesh is empty") + std::string(kLeftOut));
+    return {};
+  }
+  for (const MeshProblem& problem : validateLoop(*params)) {
+    const auto& [kind, name] = writtenAs(in, problem.parameter);
+    if (problem.severity == Severity::Error) {
+      in.error(kind, name, problem.message);
+    } else {
+      tolerate(in, kind, name, problem.message);
+    }
+  }
+  if (in.diagnostics().errorCount() > errorsBefore) return {};
+  return planOf([params, placement = input.placement](Diagnostics&) {
+    return placedMesh(subdivideLoop(*params), placement, "loopsubdiv");
+  });
+}
+
+/// Null, and told at `location`, for a file that cannot be read or holds no mesh.
+std::unique_ptr<Shape> makePlyMesh(const std::filesystem::path& path, const ShapePlacement& placement,
+                                   const SourceLocation& location, Diagnostics& diagnostics) {
+  const std::string context = "PLY file \"" + path.string() + "\": ";
+  try {
+    PlyMesh ply = readPly(path);
+    for (const std::string& notice : ply.notices) diagnostics.warning(location, context + notice);
+    const bool usable = mend(ply.mesh, TriangleMesh::validate(ply.mesh),
+                             [&](const MeshProblem& problem, const std::string& message) {
+                               diagnostics.tolerated(location, context + problem.parameter + ": " + message);
+                             });
+    return usable ? placedMesh(std::move(ply.mesh), placement, "plymesh") : nullptr;
+  } catch (const SceneError& e) {
+    diagnostics.tolerated(location, problemOf(e) + std::string(kLeftOut));
+    return nullptr;
+  }
 }
 
 ShapePlan readPlyMesh(const ShapeInput& input) {
-  require(input.in, {{ParamKind::String, "filename"}});
-  const auto file = input.in.findInputFile("filename");
   ShapePlan plan;
   readAlpha(input, plan);
+  if (input.in.findString("filename", "").empty()) {
+    tolerate(input.in, "parameter \"string filename\" is missing or empty" + std::string(kLeftOut));
+    return plan;
+  }
+  const auto file = input.in.findInputFile("filename", kLeftOut.substr(2));
   if (!file) return plan;
-  const ShapePlacement placement = input.placement;
-  const SourceLocation location = input.in.locationOf(ParamKind::String, "filename");
-  plan.make = [path = *file, placement, location](Diagnostics& diagnostics) -> std::unique_ptr<Shape> {
-    PlyMesh ply = readPly(path);
-    const std::string context = "PLY file \"" + path.string() + "\": ";
-    for (const std::string& notice : ply.notices) diagnostics.warning(location, context + notice);
-    std::string problems;
-    for (const MeshProblem& problem : TriangleMesh::validate(ply.mesh)) {
-      if (problem.severity == Severity::Error) {
-        problems += (problems.empty() ? "" : "; ") + problem.parameter + ": " + problem.message;
-      } else {
-        diagnostics.warning(location, context + problem.parameter + ": " + problem.message);
-      }
-    }
-    if (!problems.empty()) throw SceneError(location, context + problems);
-    return std::make_unique<TriangleMesh>(std::move(ply.mesh), placement, "plymesh");
+  plan.make = [path = *file, placement = input.placement,
+               location = input.in.locationOf(ParamKind::String, "filename")](Diagnostics& diagnostics) {
+    return makePlyMesh(path, placement, location, diagnostics);
   };
   return plan;
 }
 
 /// A mesh that is tessellated while it is read: its checks belong to the reading, and its input is small.
+/// What cannot be made is left out where PBRT-v3 does so, else an error.
 template <class Tessellate>
-ShapePlan planTessellation(const ShapeInput& input, std::string_view typeName, const Tessellate& tessellate) {
+ShapePlan planTessellation(const ShapeInput& input, std::string_view typeName, bool isTolerated,
+                           const Tessellate& tessellate) {
   try {
     return planMesh(input, typeName, std::make_shared<TriangleMesh::Params>(tessellate()));
   } catch (const std::invalid_argument& e) {
-    input.in.error(e.what());
+    if (isTolerated) {
+      tolerate(input.in, e.what() + std::string(kLeftOut));
+    } else {
+      input.in.error(e.what());
+    }
     return {};
   }
 }
 
 ShapePlan readHeightfield(const ShapeInput& input) {
   ParamReader& in = input.in;
+  // PBRT-v3 ends there.
   const bool complete =
-      require(in, {{ParamKind::Integer, "nu"}, {ParamKind::Integer, "nv"}, {ParamKind::Float, "Pz"}});
-  const std::size_t before = in.diagnostics().errorCount();
+      require(in, {{ParamKind::Integer, "nu"}, {ParamKind::Integer, "nv"}, {ParamKind::Float, "Pz"}}, "");
   HeightfieldParams p;
-  p.nu = in.findInt("nu", 2, Range::atLeast(2));
-  p.nv = in.findInt("nv", 2, Range::atLeast(2));
+  p.nu = in.findInt("nu", 2);
+  p.nv = in.findInt("nv", 2);
   p.Pz = in.takeFloats("Pz");
-  if (!complete || in.diagnostics().errorCount() > before) return {};
-  return planTessellation(input, "heightfield", [&] { return tessellateHeightfield(p); });
+  if (!complete) return {};
+  const bool isEmpty =
+      std::min(p.nu, p.nv) < 2 && std::int64_t{p.nu} * p.nv == static_cast<std::int64_t>(p.Pz.size());
+  return planTessellation(input, "heightfield", isEmpty, [&] { return tessellateHeightfield(p); });
 }
 
 ShapePlan readNurbs(const ShapeInput& input) {
   ParamReader& in = input.in;
-  bool complete = require(in, {{ParamKind::Integer, "nu"},
-                               {ParamKind::Integer, "nv"},
-                               {ParamKind::Integer, "uorder"},
-                               {ParamKind::Integer, "vorder"},
-                               {ParamKind::Float, "uknots"},
-                               {ParamKind::Float, "vknots"}});
+  bool complete = require(in,
+                          {{ParamKind::Integer, "nu"},
+                           {ParamKind::Integer, "nv"},
+                           {ParamKind::Integer, "uorder"},
+                           {ParamKind::Integer, "vorder"},
+                           {ParamKind::Float, "uknots"},
+                           {ParamKind::Float, "vknots"}},
+                          kLeftOut);
   if (!in.has(ParamKind::Point3, "P") && !in.has(ParamKind::Float, "Pw")) {
-    in.error("parameter \"point P\" or \"float Pw\" is missing");
+    tolerate(in, "parameter \"point P\" or \"float Pw\" is missing" + std::string(kLeftOut));
     complete = false;
   }
-  const std::size_t before = in.diagnostics().errorCount();
   NurbsParams p;
   p.nu = in.findInt("nu", 0);
   p.nv = in.findInt("nv", 0);
@@ -291,8 +391,8 @@ ShapePlan readNurbs(const ShapeInput& input) {
   p.v1 = in.optionalFloat("v1");
   p.P = in.takePoint3s("P");
   p.Pw = in.takeFloats("Pw");
-  if (!complete || in.diagnostics().errorCount() > before) return {};
-  return planTessellation(input, "nurbs", [&] { return tessellateNurbs(p); });
+  if (!complete) return {};
+  return planTessellation(input, "nurbs", true, [&] { return tessellateNurbs(p); });
 }
 
 constexpr std::array<Plugin<ReadShape>, 11> kShapes = {{{"sphere", readSphere},
@@ -310,14 +410,10 @@ constexpr std::array<Plugin<ReadShape>, 11> kShapes = {{{"sphere", readSphere},
 }  // namespace
 
 std::optional<ShapePlan> readShape(ShapeDescription& shape, ParamReader& in, Diagnostics& diagnostics) {
-  const auto* plugin = findPlugin<ReadShape>(kShapes, shape, "Shape", diagnostics);
+  const auto* plugin = findPlugin<ReadShape>(kShapes, shape, "Shape", kLeftOut.substr(2), diagnostics);
   if (plugin == nullptr) return std::nullopt;
   // A moving shape is built in its own space and placed by an animated instance.
   const Transform place = shape.ctm->isAnimated() ? Transform() : shape.ctm->start;
-  if (shape.ctm->start.isSingular() || shape.ctm->end.isSingular()) {
-    in.error("the transformation is singular: it has no inverse");
-    return std::nullopt;
-  }
   return plugin->read({shape, in, ShapePlacement{place, shape.reverseOrientation}});
 }
 

@@ -5,65 +5,72 @@
 #include <type_traits>
 #include <vector>
 
+#include "construct/tolerance.h"
+
 namespace pbrtmedia {
 
 template <class T>
-std::optional<TextureUse<T>> Texturable::findIn(ParamReader& in, std::string_view name, Range range) {
+std::optional<TextureUse<T>> Texturable::findTexture(ParamReader& in, std::string_view name,
+                                                     const std::string& texture) {
   constexpr bool kIsFloat = std::is_same_v<T, float>;
-  constexpr ParamKind kKind = kIsFloat ? ParamKind::Float : ParamKind::Spectrum;
   constexpr auto kFlavour = kIsFloat ? NameScope::Kind::FloatTextures : NameScope::Kind::SpectrumTextures;
+  constexpr auto kOther = kIsFloat ? NameScope::Kind::SpectrumTextures : NameScope::Kind::FloatTextures;
+  if (const auto index = NameScope::find(scope(), kFlavour, texture)) return TextureUse<T>{*index, T{}};
+  const std::string what = kIsFloat ? "float" : "spectrum";
+  std::string message;
+  if (NameScope::find(scope(), kOther, texture)) {
+    message = "texture \"" + texture + "\" is a " + (kIsFloat ? "spectrum" : "float") +
+              " texture, expected a " + what + " texture";
+  } else {
+    const std::vector<std::string> owned = NameScope::names(scope(), kFlavour);
+    const std::vector<std::string_view> known(owned.begin(), owned.end());
+    message = "unknown " + what + " texture \"" + texture + "\"";
+    message += known.empty() ? "; none is defined here" : suggestion(texture, known);
+  }
+  tolerate(in, ParamKind::Texture, name, message + "; the default is used, as in PBRT-v3");
+  return std::nullopt;
+}
+
+template <class T>
+Texturable::Found<T> Texturable::findIn(ParamReader& in, std::string_view name, Range range) {
+  constexpr ParamKind kKind = std::is_same_v<T, float> ? ParamKind::Float : ParamKind::Spectrum;
   if (in.has(ParamKind::Texture, name)) {
     in.has(kKind, name);  // a constant of the same name loses, but it is known
     const std::optional<std::string> texture = in.findTextureName(name);
-    if (!texture) return std::nullopt;
-    if (const auto index = NameScope::find(scope(), kFlavour, *texture)) return TextureUse<T>{*index, T{}};
-    const std::vector<std::string> owned = NameScope::names(scope(), kFlavour);
-    const std::vector<std::string_view> known(owned.begin(), owned.end());
-    const bool otherFlavour =
-        NameScope::find(
-            scope(), kIsFloat ? NameScope::Kind::SpectrumTextures : NameScope::Kind::FloatTextures, *texture)
-            .has_value();
-    const std::string what = kIsFloat ? "float" : "spectrum";
-    in.error(ParamKind::Texture, name,
-             otherFlavour ? "texture \"" + *texture + "\" is a " + (kIsFloat ? "spectrum" : "float") +
-                                " texture, expected a " + what + " texture"
-             : known.empty()
-                 ? "unknown " + what + " texture \"" + *texture + "\"; none is defined here"
-                 : "unknown " + what + " texture \"" + *texture + "\"" + suggestion(*texture, known));
-    return std::nullopt;
+    if (texture && !texture->empty()) return {true, findTexture<T>(in, name, *texture)};
   }
   const Param* param = in.find(kKind, name);
-  if (param == nullptr) return std::nullopt;
+  if (param == nullptr) return {};
   if (param->size() == 0) {
-    in.error(kKind, name, "found an empty list, expected a value or a texture");
-    return std::nullopt;
+    tolerate(in, kKind, name, "found an empty list, expected a value or a texture; the default is used");
+    return {true, std::nullopt};
   }
   if (param->size() > 1) {
-    in.diagnostics().tolerated(in.locationOf(kKind, name),
-                                  in.context() + ": parameter \"" + std::string(name) + "\": found " +
-                                      std::to_string(param->size()) + " values, expected 1");
+    tolerate(
+        in, kKind, name,
+        "found " + std::to_string(param->size()) + " values, expected 1; the first counts, as in PBRT-v3");
   }
   const T value = std::get<std::vector<T>>(param->values).front();
-  if constexpr (kIsFloat) {
-    if (!range.contains(value)) {
+  if constexpr (std::is_same_v<T, float>) {
+    if (!range.contains(static_cast<double>(value))) {
       std::ostringstream found;
-      found << "found " << value << ", expected " << range.toString();
-      in.error(kKind, name, found.str());
-      return std::nullopt;
+      found << "found " << value << ", expected " << range.toString() << "; the default is used";
+      tolerate(in, kKind, name, found.str());
+      return {true, std::nullopt};
     }
   }
-  return TextureUse<T>{TextureUse<T>::kConstant, value};
+  return {true, TextureUse<T>{TextureUse<T>::kConstant, value}};
 }
 
 template <class T>
 std::optional<TextureUse<T>> Texturable::find(std::string_view name, Range range) {
   if (shape_ != nullptr) {
-    if (auto use = findIn<T>(*shape_, name, range)) {
+    if (Found<T> found = findIn<T>(*shape_, name, range); found.isGiven) {
       shapeOverrides_ = true;
-      return use;
+      return found.use;
     }
   }
-  return findIn<T>(own_, name, range);
+  return findIn<T>(own_, name, range).use;
 }
 
 std::optional<TextureUse<float>> Texturable::optionalFloat(std::string_view name, Range range) {

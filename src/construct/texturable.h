@@ -18,14 +18,16 @@ template <class T>
 struct TextureUse {
   static constexpr std::uint32_t kConstant = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t texture = kConstant;  ///< into SceneDescription::textures
-  T constant{};  ///< the value; of a texture: what stands in when it could not be read (--lenient)
+  T constant{};  ///< the value; of a texture: what stands in when it is of an unknown class
   bool isConstant() const { return texture == kConstant; }
 };
 
 /// Looks parameters up in a shape's list first, then in the material's own (scene-language reference 3.3):
 /// texture in the shape's, constant in the shape's, texture in the own, constant in the own, default. Without
 /// a shape only the own list counts. With a shape, names of both lists mean what they mean at the Shape
-/// (reference 3.4). Remembers whether the shape's list gave anything.
+/// (reference 3.4). A name that is no texture of the kind, in either list, gives the default and is
+/// tolerated; an empty name is none. Remembers whether the shape's list gave anything, and what textures were
+/// found.
 class Texturable {
  public:
   Texturable(ParamReader& own, NameScope::Ptr ownScope) : own_(own), ownScope_(std::move(ownScope)) {}
@@ -45,8 +47,17 @@ class Texturable {
   const NameScope::Ptr& scope() const { return shape_ != nullptr ? shapeScope_ : ownScope_; }
 
  private:
+  /// What one list says of a parameter.
   template <class T>
-  std::optional<TextureUse<T>> findIn(ParamReader& in, std::string_view name, Range range);
+  struct Found {
+    bool isGiven = false;              ///< false: nothing, the next list counts
+    std::optional<TextureUse<T>> use;  ///< nothing: the default
+  };
+  template <class T>
+  Found<T> findIn(ParamReader& in, std::string_view name, Range range);
+  template <class T>
+  std::optional<TextureUse<T>> findTexture(ParamReader& in, std::string_view name,
+                                           const std::string& texture);
   template <class T>
   std::optional<TextureUse<T>> find(std::string_view name, Range range);
   template <class T>

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "construct/plugins.h"
+#include "construct/tolerance.h"
 #include "image/image.h"
 #include "textures/bilerp.h"
 #include "textures/checkerboard.h"
@@ -24,6 +25,7 @@ namespace {
 using Plan = Textures::Plan;
 using ReadTexture = Plan (*)(Texturable&, const TextureDescription&);
 
+constexpr std::string_view kGreyInstead = "a grey picture (0.5) takes its place, as in PBRT-v3";
 constexpr int kMaxNesting = 256;                  // textures within textures; real scenes have a handful
 constexpr std::size_t kMaxEvaluations = 1 << 16;  // a look-up of some milliseconds
 constexpr int kMaxOctaves = 64;  // beyond, 1.99^octaves leaves every footprint and most float ranges
@@ -31,9 +33,9 @@ constexpr int kMaxOctaves = 64;  // beyond, 1.99^octaves leaves every footprint 
 template <class T, class Make>
 Plan planOf(Make make) {
   if constexpr (std::is_same_v<T, float>) {
-    return {std::move(make), nullptr};
+    return {std::move(make), nullptr, false};
   } else {
-    return {nullptr, std::move(make)};
+    return {nullptr, std::move(make), false};
   }
 }
 
@@ -66,26 +68,27 @@ T findConstant(ParamReader& in, std::string_view name, float fallback) {
 
 Mapping2d readMapping2d(ParamReader& in, const Transform& ctm) {
   constexpr std::array<std::string_view, 4> kMappings = {"uv", "spherical", "cylindrical", "planar"};
-  switch (in.findChoice("mapping", kMappings, 0)) {
-    case 1:
-      return SphericalMapping(ctm);
-    case 2:
-      return CylindricalMapping(ctm);
-    case 3:
-      return PlanarMapping{.v1 = in.findVector3("v1", {1, 0, 0}),
-                           .v2 = in.findVector3("v2", {0, 1, 0}),
-                           .uDelta = in.findFloat("udelta", 0),
-                           .vDelta = in.findFloat("vdelta", 0)};
-    default:
-      return UvMapping{.uScale = in.findFloat("uscale", 1),
-                       .vScale = in.findFloat("vscale", 1),
-                       .uDelta = in.findFloat("udelta", 0),
-                       .vDelta = in.findFloat("vdelta", 0)};
+  const std::size_t mapping = in.findChoice("mapping", kMappings, 0);
+  if (mapping == 1) return SphericalMapping(ctm);
+  if (mapping == 2) return CylindricalMapping(ctm);
+  if (mapping == 3) {
+    return PlanarMapping{.v1 = in.findVector3("v1", {1, 0, 0}),
+                         .v2 = in.findVector3("v2", {0, 1, 0}),
+                         .uDelta = in.findFloat("udelta", 0),
+                         .vDelta = in.findFloat("vdelta", 0)};
   }
+  const UvMapping uv{.uScale = in.findFloat("uscale", 1),
+                     .vScale = in.findFloat("vscale", 1),
+                     .uDelta = in.findFloat("udelta", 0),
+                     .vDelta = in.findFloat("vdelta", 0)};
+  // For a word that it does not know PBRT-v3 takes (u, v) as they are, whatever the other parameters say.
+  const std::span<const std::string> words = in.strings("mapping");
+  const bool isUnknown = words.size() == 1 && words.front() != kMappings[0];
+  return isUnknown ? UvMapping{} : uv;
 }
 
 FractalParams readFractal(ParamReader& in) {
-  return {.octaves = in.findInt("octaves", 8, Range::closed(0, kMaxOctaves)),
+  return {.octaves = findIntWithin(in, "octaves", 8, Range::closed(0, kMaxOctaves)),
           .roughness = in.findFloat("roughness", 0.5f)};
 }
 
@@ -129,7 +132,18 @@ Plan readUv(Texturable& in, const TextureDescription& d) {
 template <class T>
 Plan readCheckerboard(Texturable& in, const TextureDescription& d) {
   const auto tex1 = findUse<T>(in, "tex1", 1), tex2 = findUse<T>(in, "tex2", 0);
-  const int dimension = in.own().findInt("dimension", 2, Range::closed(2, 3));
+  const int dimension = in.own().findInt("dimension", 2);
+  if (dimension != 2 && dimension != 3) {
+    tolerate(in.own(), ParamKind::Integer, "dimension",
+             "found " + std::to_string(dimension) +
+                 ", expected 2 or 3; the texture is not defined, and its users "
+                 "take their defaults, as in PBRT-v3");
+    readMapping2d(in.own(), d.ctm->start);
+    in.own().findString("aamode", "");
+    Plan undefined;
+    undefined.isUnusable = true;
+    return undefined;
+  }
   if (dimension == 3) {
     const Mapping3d mapping(d.ctm->start);
     return planOf<T>([=](Textures& t) {
@@ -185,22 +199,31 @@ Plan readMarble(Texturable& in, const TextureDescription& d) {
 template <class T>
 Plan readImagemap(Texturable& in, const TextureDescription& d) {
   ParamReader& own = in.own();
-  const std::optional<std::filesystem::path> file = own.findInputFile("filename");
-  if (!file && !own.has(ParamKind::String, "filename")) own.error("parameter \"filename\" is missing");
+  const std::string name = own.findString("filename", "");
+  const std::optional<std::filesystem::path> file = own.findInputFile("filename", kGreyInstead);
+  if (name.empty()) {
+    tolerate(own, (own.has(ParamKind::String, "filename") ? "parameter \"filename\" is empty; "
+                                                          : "parameter \"filename\" is missing; ") +
+                      std::string(kGreyInstead));
+  }
   constexpr std::array<std::string_view, 3> kWraps = {"repeat", "black", "clamp"};
   ImageTexelParams texels;
-  texels.gamma = own.findBool("gamma", file && defaultGamma(*file));
+  texels.gamma = own.findBool("gamma", defaultGamma(name));
   texels.scale = own.findFloat("scale", texels.scale);
   texels.wrap =
       std::array{WrapMode::Repeat, WrapMode::Black, WrapMode::Clamp}[own.findChoice("wrap", kWraps, 0)];
   ImageFilterParams filter;
   filter.trilinear = own.findBool("trilinear", filter.trilinear);
-  filter.maxAnisotropy = own.findFloat("maxanisotropy", filter.maxAnisotropy, Range::closed(1, 1024));
+  filter.maxAnisotropy = findFloatWithin(own, "maxanisotropy", filter.maxAnisotropy, Range::closed(1, 1024));
   const Mapping2d mapping = readMapping2d(own, d.ctm->start);
-  const std::filesystem::path path = file.value_or("");
-  return planOf<T>([=](Textures& t) {
-    return std::make_unique<ImageTexture<T>>(mapping, t.pyramid<T>(path, texels), filter);
+  const Textures::Picture picture{.file = file.value_or(""),
+                                  .named = own.locationOf(ParamKind::String, "filename"),
+                                  .context = own.context()};
+  Plan plan = planOf<T>([=](Textures& t) {
+    return std::make_unique<ImageTexture<T>>(mapping, t.pyramid<T>(picture, texels), filter);
   });
+  plan.isUnusable = !file;
+  return plan;
 }
 
 constexpr std::array<Plugin<ReadTexture>, 10> kFloatTextures = {{{"constant", readConstant<float>},
@@ -229,18 +252,25 @@ constexpr std::array<Plugin<ReadTexture>, 12> kRgbTextures = {{{"constant", read
 
 }  // namespace
 
-Textures::Textures(SceneDescription& scene, Diagnostics& diagnostics) : scene_(scene) {
-  plans_.resize(scene.textures.size());
-  evaluations_.resize(scene.textures.size());
-  builtFloats_.resize(scene.textures.size());
-  builtRgbs_.resize(scene.textures.size());
+Textures::Textures(SceneDescription& scene, Diagnostics& diagnostics)
+    : scene_(scene),
+      diagnostics_(diagnostics),
+      plans_(scene.textures.size()),
+      builtFloats_(scene.textures.size()),
+      builtRgbs_(scene.textures.size()),
+      evaluations_(scene.textures.size()) {
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     TextureDescription& d = scene.textures[i];
     const bool isFloat = d.flavour == TextureFlavour::Float;
     const std::string kind = std::string(isFloat ? "float" : "spectrum") + " texture \"" + d.name + "\"";
-    const auto* plugin = isFloat ? findPlugin<ReadTexture>(kFloatTextures, d, kind, diagnostics)
-                                 : findPlugin<ReadTexture>(kRgbTextures, d, kind, diagnostics);
-    if (plugin == nullptr) continue;  // its users take their defaults, as in PBRT-v3
+    constexpr std::string_view kUndefined =
+        "it is not defined, and its users take their defaults, as in PBRT-v3";
+    const auto* plugin = isFloat ? findPlugin<ReadTexture>(kFloatTextures, d, kind, kUndefined, diagnostics)
+                                 : findPlugin<ReadTexture>(kRgbTextures, d, kind, kUndefined, diagnostics);
+    if (plugin == nullptr) {
+      plans_[i].isUnusable = true;
+      continue;
+    }
     if (d.ctm->isAnimated()) {
       diagnostics.warning(d.location,
                           kind + ": textures do not move; the transformation of the start time is used");
@@ -312,8 +342,7 @@ const RgbTexture* Textures::rgbTexture(const TextureUse<Rgb>& use) {
 }
 
 template <class T>
-std::shared_ptr<const MipMap<T>> Textures::pyramid(const std::filesystem::path& file,
-                                                   const ImageTexelParams& params) {
+std::shared_ptr<const MipMap<T>> Textures::pyramid(const Picture& picture, const ImageTexelParams& params) {
   auto& cache = [this]() -> PyramidCache<T>& {
     if constexpr (std::is_same_v<T, float>) {
       return floatPyramids_;
@@ -321,14 +350,23 @@ std::shared_ptr<const MipMap<T>> Textures::pyramid(const std::filesystem::path& 
       return rgbPyramids_;
     }
   }();
-  std::shared_ptr<const MipMap<T>>& entry = cache[{file, params.gamma, params.scale, params.wrap}];
-  if (entry == nullptr) entry = makeTexturePyramid<T>(readImage(file), params);
-  return entry;
+  std::shared_ptr<const MipMap<T>>& entry = cache[{picture.file, params.gamma, params.scale, params.wrap}];
+  if (entry != nullptr) return entry;
+  if (!picture.file.empty()) {
+    try {
+      return entry = makeTexturePyramid<T>(readImage(picture.file), params);
+    } catch (const SceneError& e) {
+      diagnostics_.tolerated(picture.named, picture.context + ": parameter \"filename\": " + problemOf(e) +
+                                                "; " + std::string(kGreyInstead));
+    }
+  }
+  Image grey(1, 1, {"R", "G", "B"});
+  grey.setRgb(0, 0, Rgb(0.5f));
+  return entry = makeTexturePyramid<T>(grey, params);
 }
 
-template std::shared_ptr<const MipMap<float>> Textures::pyramid<float>(const std::filesystem::path&,
+template std::shared_ptr<const MipMap<float>> Textures::pyramid<float>(const Picture&,
                                                                        const ImageTexelParams&);
-template std::shared_ptr<const MipMap<Rgb>> Textures::pyramid<Rgb>(const std::filesystem::path&,
-                                                                   const ImageTexelParams&);
+template std::shared_ptr<const MipMap<Rgb>> Textures::pyramid<Rgb>(const Picture&, const ImageTexelParams&);
 
 }  // namespace pbrtmedia

@@ -19,13 +19,14 @@ namespace pbrtmedia {
 /// textures take with the same decoding share one pyramid. Hands its textures over with `takeBuilt`.
 class Textures {
  public:
-  /// Reads every texture; problems go to `diagnostics`. `scene` must outlive this object.
+  /// Reads every texture; problems go to `diagnostics`, as do those of building. Both references must outlive
+  /// this object.
   Textures(SceneDescription& scene, Diagnostics& diagnostics);
 
-  /// The texture, built now if need be. Throws SceneError when its picture cannot be read.
+  /// The texture, built now if need be. Throws SceneError when it cannot be made.
   const FloatTexture* floatTexture(const TextureUse<float>& use);
   const RgbTexture* rgbTexture(const TextureUse<Rgb>& use);
-  /// Null for nothing, and for a texture that could not be read (--lenient).
+  /// Null for nothing, and for a texture of an unknown class.
   const FloatTexture* floatTexture(const std::optional<TextureUse<float>>& use) {
     return use && !isMissing(*use) ? floatTexture(*use) : nullptr;
   }
@@ -47,10 +48,21 @@ class Textures {
   struct Plan {
     std::function<std::unique_ptr<FloatTexture>(Textures&)> makeFloat;
     std::function<std::unique_ptr<RgbTexture>(Textures&)> makeRgb;
+    bool isUnusable = false;
   };
-  /// A picture decoded to texels; cached.
+  /// Where a picture comes from.
+  struct Picture {
+    std::filesystem::path file;  ///< "": there is none
+    SourceLocation named;        ///< the place that names it
+    std::string context;         ///< starts messages
+  };
+  /// A picture decoded to texels; cached. Grey, as in PBRT-v3, and told of where there is none or it cannot
+  /// be read.
   template <class T>
-  std::shared_ptr<const MipMap<T>> pyramid(const std::filesystem::path& file, const ImageTexelParams& params);
+  std::shared_ptr<const MipMap<T>> pyramid(const Picture& picture, const ImageTexelParams& params);
+
+  /// Whether a texture has no value of its own: it is of an unknown class, or its picture is not there.
+  bool isUnusable(std::uint32_t texture) const { return plans_[texture].isUnusable; }
 
  private:
   template <class T>
@@ -65,6 +77,7 @@ class Textures {
   std::unique_ptr<Texture<T>> build(std::uint32_t texture, const Make& make);
 
   SceneDescription& scene_;
+  Diagnostics& diagnostics_;
   std::vector<Plan> plans_;
   std::vector<const FloatTexture*> builtFloats_;
   std::vector<const RgbTexture*> builtRgbs_;

@@ -21,32 +21,75 @@ WorldBuilder::WorldBuilder(SceneDescription& scene, Textures& textures, Material
     : scene_(scene), textures_(textures), materials_(materials), diagnostics_(diagnostics) {}
 
 void WorldBuilder::read(bool quick) {
-  for (MediumDescription& medium : scene_.media) mediumPlans_.push_back(readMedium(medium, diagnostics_));
+  markUsedObjects();
+  markUsedMedia();
+  for (std::size_t i = 0; i < scene_.media.size(); ++i) {
+    Diagnostics messages;
+    messages.strict = diagnostics_.strict;
+    mediumPlans_.push_back(readMedium(scene_.media[i], mediumUsed_[i], messages, diagnostics_));
+    handOver(messages, mediumUsed_[i], "medium");
+  }
   for (LightDescription& light : scene_.lights) lights_.push_back(readLight(light, quick, diagnostics_));
   for (Entity& light : scene_.areaLights) areaLights_.push_back(readAreaLight(light, quick, diagnostics_));
   media_.resize(scene_.media.size());
-  markUsedObjects();
   readShapes();
+}
+
+/// What nothing uses is not built, so that what is wrong with it changes no image: its errors are tolerated.
+void WorldBuilder::handOver(const Diagnostics& messages, bool isUsed, std::string_view what) {
+  for (const Diagnostic& d : messages.all()) {
+    if (isUsed || d.severity != Severity::Error || d.message.ends_with("[--strict]")) {
+      diagnostics_.add(d.severity, d.location, d.message);
+    } else {
+      diagnostics_.tolerated(d.location,
+                             d.message + "; nothing uses this " + std::string(what) + ", so it is left out");
+    }
+  }
 }
 
 void WorldBuilder::readShapes() {
   for (ShapeDescription& shape : scene_.shapes) {
-    ParamReader in(shape, diagnostics_, contextOf(shape));
-    ShapeRead read;
-    read.plan = readShape(shape, in, diagnostics_);
-    read.material = materials_.readForShape(shape, in, diagnostics_);
-    if (read.plan) in.reportUnused();
-    if (read.plan && !read.plan->make) read.plan.reset();
-    if (shape.areaLight != kNone && shape.ctm->isAnimated()) {
-      diagnostics_.warning(shape.location,
-                           contextOf(shape) + ": area lights on moving shapes are ignored, as in PBRT-v3");
-    } else if (shape.areaLight != kNone && shape.object != kNone) {
-      diagnostics_.warning(
-          shape.location,
-          contextOf(shape) + ": an area light in an object is seen but lights nothing, as in PBRT-v3");
+    if (isUsed(shape)) {
+      shapes_.push_back(readShape(shape, diagnostics_));
+      continue;
     }
-    shapes_.push_back(std::move(read));
+    Diagnostics messages;
+    messages.strict = diagnostics_.strict;
+    shapes_.push_back(readShape(shape, messages));
+    handOver(messages, false, "object");
   }
+}
+
+WorldBuilder::ShapeRead WorldBuilder::readShape(ShapeDescription& shape, Diagnostics& diagnostics) {
+  ParamReader in(shape, diagnostics, contextOf(shape));
+  ShapeRead read;
+  std::optional<ShapePlan> plan = pbrtmedia::readShape(shape, in, diagnostics);
+  read.material = materials_.readForShape(shape, in, diagnostics);
+  if (plan) in.reportUnused();
+  if (plan && plan->make) read.plan = std::move(plan);
+  if (!read.plan || !isUsed(shape)) return read;
+  if (shape.areaLight != kNone && shape.ctm->isAnimated()) {
+    diagnostics.warning(shape.location,
+                        contextOf(shape) + ": area lights on moving shapes are ignored, as in PBRT-v3");
+  } else if (shape.areaLight != kNone && shape.object != kNone) {
+    diagnostics.warning(
+        shape.location,
+        contextOf(shape) + ": an area light in an object is seen but lights nothing, as in PBRT-v3");
+  }
+  return read;
+}
+
+void WorldBuilder::markUsedMedia() {
+  mediumUsed_.assign(scene_.media.size(), false);
+  const auto use = [&](const MediumUse& m) {
+    if (m.index != kNone) mediumUsed_[static_cast<std::size_t>(m.index)] = true;
+  };
+  for (const ShapeDescription& shape : scene_.shapes) {
+    if (!isUsed(shape)) continue;
+    use(shape.media->inside);
+    use(shape.media->outside);
+  }
+  use(scene_.cameraMedium);
 }
 
 void WorldBuilder::markUsedObjects() {
@@ -82,18 +125,8 @@ void WorldBuilder::markUsedObjects() {
 }
 
 void WorldBuilder::buildMedia(SceneBuilder& builder) {
-  std::vector<bool> used(scene_.media.size(), false);
-  const auto use = [&](const MediumUse& m) {
-    if (m.index != kNone) used[static_cast<std::size_t>(m.index)] = true;
-  };
-  for (const ShapeDescription& shape : scene_.shapes) {
-    if (shape.object != kNone && !objectUsed_[static_cast<std::size_t>(shape.object)]) continue;
-    use(shape.media->inside);
-    use(shape.media->outside);
-  }
-  use(scene_.cameraMedium);
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i]) {
+  for (std::size_t i = 0; i < mediumUsed_.size(); ++i) {
+    if (!mediumUsed_[i]) {
       report_.push_back("medium \"" + scene_.media[i].name + "\": not used, left out");
       continue;
     }
@@ -117,12 +150,14 @@ void WorldBuilder::addAreaLights(const ShapeDescription& shape, Primitive& primi
   }
 }
 
-Primitive WorldBuilder::buildPrimitive(std::size_t index, SceneBuilder& builder) {
+std::optional<Primitive> WorldBuilder::buildPrimitive(std::size_t index, SceneBuilder& builder) {
   const ShapeDescription& shape = scene_.shapes[index];
   const ShapeRead& read = shapes_[index];
   Primitive primitive;
-  primitive.shape =
-      builder.own(builtAt(shape.location, contextOf(shape), [&] { return read.plan->make(diagnostics_); }));
+  std::unique_ptr<Shape> made =
+      builtAt(shape.location, contextOf(shape), [&] { return read.plan->make(diagnostics_); });
+  if (made == nullptr) return std::nullopt;
+  primitive.shape = builder.own(std::move(made));
   primitive.material =
       builtAt(shape.location, contextOf(shape), [&] { return materials_.build(read.material); });
   primitive.media = {mediumOf(shape.media->inside), mediumOf(shape.media->outside)};
@@ -136,12 +171,12 @@ void WorldBuilder::placeShapes(SceneBuilder& builder) {
   for (std::size_t i = 0; i < scene_.shapes.size(); ++i) {
     const ShapeDescription& shape = scene_.shapes[i];
     if (shape.object != kNone || !shapes_[i].plan) continue;
-    Primitive primitive = buildPrimitive(i, builder);
-    if (primitive.isInvisible()) continue;
+    std::optional<Primitive> primitive = buildPrimitive(i, builder);
+    if (!primitive || primitive->isInvisible()) continue;
     if (shape.ctm->isAnimated()) {
-      place(builder, addMoving(builder, *shape.ctm, std::move(primitive)), TransformPair{});
+      place(builder, addMoving(builder, *shape.ctm, *std::move(primitive)), TransformPair{});
     } else {
-      builder.addPrimitive(std::move(primitive));
+      builder.addPrimitive(*std::move(primitive));
     }
   }
 }
@@ -158,13 +193,13 @@ void WorldBuilder::placeObjects(SceneBuilder& builder) {
     std::vector<Primitive> primitives;
     for (const std::uint32_t shape : scene_.objects[i].shapes) {
       if (!shapes_[shape].plan) continue;
-      Primitive primitive = buildPrimitive(shape, builder);
-      if (primitive.isInvisible()) continue;
+      std::optional<Primitive> primitive = buildPrimitive(shape, builder);
+      if (!primitive || primitive->isInvisible()) continue;
       const TransformPair& ctm = *scene_.shapes[shape].ctm;
       if (ctm.isAnimated()) {
-        movingShapes_[i].push_back(addMoving(builder, ctm, std::move(primitive)));
+        movingShapes_[i].push_back(addMoving(builder, ctm, *std::move(primitive)));
       } else {
-        primitives.push_back(std::move(primitive));
+        primitives.push_back(*std::move(primitive));
       }
     }
     objectNumber_[i] = builder.addObject(std::move(primitives));
@@ -195,7 +230,11 @@ void WorldBuilder::placeInstance(SceneBuilder& builder, const InstanceDescriptio
   if (scene_.objects[instance.object].placedShapes == 0) return;  // however often it is repeated inside
   const TransformPair place{outer.start * instance.ctm->start, outer.end * instance.ctm->end};
   if (place.start.isSingular() || place.end.isSingular()) {
-    throw SceneError(instance.location, "ObjectInstance: the transformation is singular: it has no inverse");
+    diagnostics_.tolerated(
+        instance.location,
+        "ObjectInstance: the transformation is singular (a scale of 0?), so the object is not "
+        "seen, as in PBRT-v3");
+    return;
   }
   builder.addInstance(
       objectNumber_[instance.object],

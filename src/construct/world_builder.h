@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "construct/lights.h"
@@ -45,10 +46,17 @@ class WorldBuilder {
     std::uint32_t object;
     TransformPair ctm;
   };
+  void handOver(const Diagnostics& messages, bool isUsed, std::string_view what);
   void readShapes();
+  ShapeRead readShape(ShapeDescription& shape, Diagnostics& diagnostics);
   void markUsedObjects();
+  void markUsedMedia();
+  bool isUsed(const ShapeDescription& shape) const {
+    return shape.object == kNone || objectUsed_[static_cast<std::size_t>(shape.object)];
+  }
   void buildMedia(SceneBuilder& builder);
-  Primitive buildPrimitive(std::size_t shape, SceneBuilder& builder);
+  /// Nothing for a shape whose file turns out to be broken.
+  std::optional<Primitive> buildPrimitive(std::size_t shape, SceneBuilder& builder);
   void addAreaLights(const ShapeDescription& shape, Primitive& primitive, SceneBuilder& builder);
   void placeShapes(SceneBuilder& builder);
   void placeObjects(SceneBuilder& builder);
@@ -67,7 +75,7 @@ class WorldBuilder {
   std::vector<std::optional<DiffuseAreaLight::Params>> areaLights_;
   std::vector<std::optional<MediumPlan>> mediumPlans_;
   std::vector<const Medium*> media_;
-  std::vector<bool> objectUsed_;
+  std::vector<bool> objectUsed_, mediumUsed_;
   std::vector<std::uint32_t> objectNumber_;
   std::vector<std::vector<MovingShape>> movingShapes_;  ///< of each object
   bool usesMedia_ = false, withMedia_ = true;

@@ -39,7 +39,7 @@ class Reader {
       : nodes_(nodes), file_(file), bytes_(bytes), map_(map), out_(out) {}
 
   void fill() {
-    background_ = density(nodes_.background(), [] { return std::string("the background"); });
+    background_ = density(nodes_.background(), 1, [] { return std::string("the background"); });
     out_.hasActive = nodes_.hasActive();
     if (!out_.hasActive) return;
     out_.activeMin = nodes_.activeMin();
@@ -70,14 +70,24 @@ class Reader {
   }
 
  private:
+  /// `voxels`: how many have the value.
   template <class Where>
-  float density(double value, const Where& where) const {
+  float density(double value, std::size_t voxels, const Where& where) const {
     const double mapped = static_cast<double>(map_.scale) * value + static_cast<double>(map_.offset);
-    return checked(static_cast<float>(mapped), value, where);
+    return checked(static_cast<float>(mapped), value, voxels, where);
   }
   template <class Where>
-  float checked(float density, double value, const Where& where) const {
+  float checked(float density, double value, std::size_t voxels, const Where& where) const {
     if (density >= 0 && std::isfinite(density)) return density;
+    if (map_.negatives != nullptr && density < 0 && std::isfinite(density) && out_.gridClass != "level set") {
+      NegativeDensities& negatives = *map_.negatives;
+      if (negatives.count == 0) {
+        negatives.first = where();
+        negatives.density = density;
+      }
+      negatives.count += voxels;
+      return 0;
+    }
     std::ostringstream message;
     message << where() << " holds " << value;
     if (map_.scale != 1 || map_.offset != 0) message << ", which gives the density " << density;
@@ -99,7 +109,7 @@ class Reader {
     return corner;
   }
   float tileDensity(double value, IndexPoint origin, std::int64_t size) const {
-    return density(value,
+    return density(value, static_cast<std::size_t>(size * size * size),
                    [&] { return "the tile of " + std::to_string(size) + "^3 voxels at " + shown(origin); });
   }
 
@@ -146,17 +156,25 @@ class Reader {
       std::memcpy(room.data(), bytes_.data() + node.offset + kCodesAt, size);
       const std::span<const std::uint32_t> words(room.data(), size / sizeof(std::uint32_t));
       const int log2Bits = nodes_.log2BitsOf(node);
+      std::array<float, BrickTree::kSamplesPerBrick> densities;
+      bool isClamped = false;
       for (std::uint32_t i = 0; i < BrickTree::kSamplesPerBrick; ++i) {
         const auto code = static_cast<float>(BrickTree::codeAt(words.data(), log2Bits, i));
-        checked(code * quantum + minimum, static_cast<double>(code * leaf->mQuantum + leaf->mMinimum),
-                [&] { return "voxel " + shown(voxel(node, i)); });
+        const float decoded = code * quantum + minimum;
+        densities[i] = checked(decoded, static_cast<double>(code * leaf->mQuantum + leaf->mMinimum), 1,
+                               [&] { return "voxel " + shown(voxel(node, i)); });
+        isClamped = isClamped || densities[i] != decoded;
       }
-      out_.tree.setBrick(*at, log2Bits, minimum, quantum, words);
+      if (isClamped) {
+        out_.tree.setBrick(*at, densities);  // no code means exactly 0
+      } else {
+        out_.tree.setBrick(*at, log2Bits, minimum, quantum, words);
+      }
     } else {
       std::array<float, BrickTree::kSamplesPerBrick> densities;
       for (std::uint32_t i = 0; i < BrickTree::kSamplesPerBrick; ++i) {
-        densities[i] =
-            density(static_cast<double>(leaf->mValues[i]), [&] { return "voxel " + shown(voxel(node, i)); });
+        densities[i] = density(static_cast<double>(leaf->mValues[i]), 1,
+                               [&] { return "voxel " + shown(voxel(node, i)); });
       }
       out_.tree.setBrick(*at, densities);
     }

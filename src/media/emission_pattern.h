@@ -19,6 +19,8 @@ class EmissionPattern {
   virtual Rgb at(Vec3d p) const = 0;
   /// A bound on every channel of `at` over the convex hull of the corners of a cell; 0 only where all are.
   virtual float upperOver(const std::array<Vec3d, 8>& corners) const = 0;
+  /// Whether it is 0 everywhere.
+  virtual bool isBlack() const = 0;
   virtual std::string describe() const = 0;
   virtual std::size_t bytes() const = 0;
 };

@@ -70,6 +70,7 @@ class FieldPattern final : public EmissionPattern {
     return curve_.upper(most);
   }
 
+  bool isBlack() const override { return !(curve_.upper(bounds_.maximum()) > 0); }
   std::string describe() const override { return curve_.describe(); }
   std::size_t bytes() const override { return field_.bytes() + bounds_.bytes() + curve_.bytes(); }
 

@@ -54,6 +54,7 @@ struct Param {
   std::vector<Mark> marks;             ///< of the first `kMaxMarks` tokens; empty for a single value
   std::uint32_t tokensPerElement = 1;  ///< numbers that made one element (3 for a point, 2 for a black body)
   mutable bool used = false;           ///< a consumer asked for it
+  bool isConverted = false;  ///< Spectrum: the RGB was computed, from xyz, samples, a black body or a file
 
   std::size_t size() const {
     return std::visit([](const auto& v) { return v.size(); }, values);

@@ -52,7 +52,7 @@ const T* ParamReader::scalar(ParamKind kind, std::string_view name) {
   const auto& values = std::get<std::vector<T>>(p->values);
   if (values.size() == 1) return values.data();
   diagnostics_.tolerated(p->valuesAt, context_ + ": parameter " + quotedName(name) + ": found " +
-                                             std::to_string(values.size()) + " values, expected 1");
+                                          std::to_string(values.size()) + " values, expected 1");
   return nullptr;
 }
 
@@ -160,14 +160,22 @@ std::size_t ParamReader::findChoice(std::string_view name, std::span<const std::
   return fallback;
 }
 
-std::optional<std::filesystem::path> ParamReader::findInputFile(std::string_view name) {
+std::optional<std::filesystem::path> ParamReader::findInputFile(std::string_view name,
+                                                                std::string_view consequence) {
   const std::string* const file = scalar<std::string>(ParamKind::String, name);
-  if (!file) return std::nullopt;
+  if (!file || file->empty()) return std::nullopt;
   static const InputFolders kWorkingFolder;
   const InputFolders& folders = entity_.folders ? *entity_.folders : kWorkingFolder;
   const auto found = folders.locate(*file);
   if (!found) {
-    error(ParamKind::String, name, "there is no file \"" + folders.underBase(*file).string() + '"');
+    std::string message = "there is no file \"" + folders.underBase(*file).string() + '"';
+    if (consequence.empty()) {
+      error(ParamKind::String, name, message);
+    } else {
+      message.append("; ").append(consequence);
+      diagnostics_.tolerated(locationOf(ParamKind::String, name),
+                             context_ + ": parameter " + quotedName(name) + ": " + message);
+    }
     return std::nullopt;
   }
   if (found->besideIncluder) {

@@ -90,9 +90,11 @@ class ParamReader {
   /// (--lenient: a warning) and gives the fallback.
   std::size_t findChoice(std::string_view name, std::span<const std::string_view> choices,
                          std::size_t fallback);
-  /// An existing input file named by a string parameter. Nothing when absent or (with an error) missing;
-  /// found only beside the including file: a warning.
-  std::optional<std::filesystem::path> findInputFile(std::string_view name);
+  /// An existing input file named by a string parameter. Nothing when absent, empty or missing; a missing one
+  /// is an error, or tolerated where PBRT-v3 renders without it: then `consequence` says how. Found only
+  /// beside the including file: a warning.
+  std::optional<std::filesystem::path> findInputFile(std::string_view name,
+                                                     std::string_view consequence = {});
 
   /// Where the parameter stands (its first value), or the directive when it is absent.
   SourceLocation locationOf(ParamKind kind, std::string_view name) const;

@@ -14,6 +14,7 @@ namespace pbrtmedia {
 bool SpectrumValues::fromNumbers(Param& param, const ParamType& type, std::span<const float> n,
                                  const std::string& what) {
   auto& colours = param.values.emplace<std::vector<Rgb>>();
+  param.isConverted = type.spectral != ParamType::Spectral::Rgb;
   const std::size_t per = type.perElement;
   std::size_t i = 0;
   try {
@@ -28,7 +29,7 @@ bool SpectrumValues::fromNumbers(Param& param, const ParamType& type, std::span<
       for (; i + per <= n.size(); i += per) {
         switch (type.spectral) {
           case ParamType::Spectral::BlackBody:
-            colours.push_back(blackbodyToRgb(n[i], n[i + 1]));
+            colours.push_back(blackbody(n[i], n[i + 1], param.locationOf(i / per), what));
             break;
           case ParamType::Spectral::Xyz:
             colours.push_back(xyzToRgb({n[i], n[i + 1], n[i + 2]}));
@@ -51,21 +52,30 @@ bool SpectrumValues::fromNumbers(Param& param, const ParamType& type, std::span<
   return true;
 }
 
+Rgb SpectrumValues::blackbody(float kelvin, float scale, const SourceLocation& at, const std::string& what) {
+  if (kelvin > 0) return blackbodyToRgb(kelvin, scale);
+  diagnostics_.tolerated(at,
+                         what + "a black body without temperature is black here; PBRT-v3 makes NaN of it");
+  return {};
+}
+
 bool SpectrumValues::fromFiles(Param& param, const InputFolders& folders, const std::string& what) {
   const auto names = std::get<std::vector<std::string>>(std::move(param.values));
   auto& colours = param.values.emplace<std::vector<Rgb>>();
   param.tokensPerElement = 1;
+  param.isConverted = true;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (!readFiles_) {
       colours.emplace_back();
       continue;
     }
     const SourceLocation at = param.locationOf(i);
-    const auto found = folders.locate(names[i]);
+    const auto found = names[i].empty() ? std::nullopt : folders.locate(names[i]);
     if (!found) {
-      diagnostics_.error(at,
-                         what + "there is no file \"" + shown(folders.underBase(names[i]).string()) + '"');
-      return false;
+      diagnostics_.tolerated(at, what + "there is no file \"" + shown(folders.underBase(names[i]).string()) +
+                                     "\"; black is taken, as in PBRT-v3");
+      colours.emplace_back();
+      continue;
     }
     if (found->besideIncluder) {
       diagnostics_.warning(at, "using \"" + found->path.string() + "\"; PBRT-v3 looks for \"" +
@@ -75,8 +85,9 @@ bool SpectrumValues::fromFiles(Param& param, const InputFolders& folders, const 
     try {
       if (isNew) cached->second = sampledSpectrumToRgb(readSpectrumFile(found->path));
     } catch (const SceneError& e) {
-      diagnostics_.add(e);
-      diagnostics_.note(at, "the file is named here");
+      const std::string place = e.location().line > 0 ? e.location().toString() + ": " : "";
+      diagnostics_.tolerated(at, what + place + e.what() + "; black is taken, as in PBRT-v3");
+      cached->second = Rgb();
     } catch (const std::invalid_argument& e) {
       diagnostics_.error(at, what + '"' + found->path.string() + "\": " + e.what());
     }

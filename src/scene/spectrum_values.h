@@ -15,7 +15,8 @@
 namespace pbrtmedia {
 
 /// Turns what a spectral parameter says into RGB: numbers, or names of files, each of which is read once.
-/// Both functions leave the colours in `param`; false: a problem was reported, beginning with `what`.
+/// Both functions leave the colours in `param`; false: a problem was reported, beginning with `what`. Black,
+/// and tolerated, are a file that is missing or cannot be read and a black body without temperature.
 class SpectrumValues {
  public:
   /// `readFiles`: false makes every file black, unread.
@@ -28,6 +29,8 @@ class SpectrumValues {
   bool fromFiles(Param& param, const InputFolders& folders, const std::string& what);
 
  private:
+  Rgb blackbody(float kelvin, float scale, const SourceLocation& at, const std::string& what);
+
   Diagnostics& diagnostics_;
   bool readFiles_;
   std::map<std::filesystem::path, std::optional<Rgb>> spectra_;  ///< files read before; nothing: unusable

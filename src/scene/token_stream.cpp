@@ -21,6 +21,15 @@ std::string_view foreignEncoding(std::string_view text) {
   if (starts("\xff\xfe\0\0"sv) || starts("\0\0\xfe\xff"sv)) return "UTF-32 text; save it as UTF-8";
   if (starts("\xff\xfe"sv) || starts("\xfe\xff"sv)) return "UTF-16 text; save it as UTF-8";
   if (starts("ply\n"sv) || starts("ply\r"sv)) return "a PLY mesh; use it with Shape \"plymesh\"";
+  if (starts(" BDV\0\0\0\0"sv)) {
+    return "an OpenVDB volume, not a scene; run vdb2pbrt on it, which makes an .nvdb file for a medium of "
+           "type "
+           "\"nanovdb\"";
+  }
+  if (starts("NanoVDB"sv)) {
+    return "a NanoVDB volume, not a scene; name it in MakeNamedMedium: \"string type\" \"nanovdb\" \"string "
+           "filename\"";
+  }
   if (starts("\x76\x2f\x31\x01"sv)) return "an OpenEXR image, not a scene";
   if (starts("\x89PNG"sv)) return "a PNG image, not a scene";
   const std::string_view head = text.substr(0, kLookedAt);

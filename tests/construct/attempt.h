@@ -14,7 +14,7 @@
 namespace pbrtmedia::test {
 
 struct AttemptSettings {
-  bool lenient = false;
+  bool strict = false;
   ConstructOptions build{};
   std::filesystem::path folder = ".";
 };
@@ -42,9 +42,25 @@ struct Attempt {
   }
 };
 
+/// Makes every attempt strict while it lives.
+class StrictAttempts {
+ public:
+  StrictAttempts() { ++count(); }
+  ~StrictAttempts() { --count(); }
+  StrictAttempts(const StrictAttempts&) = delete;
+  StrictAttempts& operator=(const StrictAttempts&) = delete;
+  static bool areOn() { return count() > 0; }
+
+ private:
+  static int& count() {
+    static int living = 0;
+    return living;
+  }
+};
+
 inline Attempt attempt(const std::string& text, const AttemptSettings& settings = {}) {
   Attempt a;
-  a.diagnostics.strict = !settings.lenient;
+  a.diagnostics.strict = settings.strict || StrictAttempts::areOn();
   a.worlds = parseText(text, "t.pbrt", settings.folder, a.diagnostics);
   if (a.diagnostics.hasErrors() || a.worlds.size() != 1) return a;
   a.made = construct(a.worlds.front(), settings.build, a.diagnostics);

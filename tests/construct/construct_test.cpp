@@ -27,6 +27,7 @@ TEST(Construct, WarnsOnlyWhenNothingShines) {
 }
 
 TEST(Construct, ShowsAllProblemsTogether) {
+  const StrictAttempts strict;
   const Attempt a = attempt(
       "Film \"image\" \"integer xresolution\" 0\nSampler \"nil\"\nCamera \"perspective\" \"float fov\" 500\n"
       "Integrator \"path\" \"integer maxdepth\" -1\nPixelFilter \"box\" \"float xwidth\" 0\nWorldBegin\n"
@@ -44,6 +45,7 @@ TEST(Construct, ShowsAllProblemsTogether) {
 }
 
 TEST(Construct, ChecksBeforeItBuilds) {
+  const StrictAttempts strict;
   const TemporaryFolder folder;
   folder.write("corrupt.png", "no picture");
   const Attempt a = attemptWorld(

@@ -59,16 +59,17 @@ TEST(ConstructEmission, GridsOfFactorsAndTemperatures) {
 }
 
 TEST(ConstructEmission, WrongInputIsToldWhereItStands) {
-  EXPECT_TRUE(with(kHomogeneous + "\"rgb Le\" [ 1 -2 3 ]").failsWith("negative radiance"));
-  EXPECT_TRUE(with(kHomogeneous + "\"float Lescale\" -1").failsWith("negative"));
-  EXPECT_TRUE(with(kHomogeneous + "\"float Lescale\" [ 1 2 ]").failsWith("found 2 values, expected 1"));
-  EXPECT_TRUE(with(kHomogeneous + "\"float temperature\" [ 1 2 ]").failsWith("temperature"));
+  EXPECT_TRUE(with(kHomogeneous + "\"rgb Le\" [ 1 -2 3 ]").warns("negative channels count as 0"));
+  EXPECT_TRUE(with(kHomogeneous + "\"rgb Le\" [ 1 1 1 ] \"float Lescale\" -1").failsWith("negative"));
+  EXPECT_TRUE(with(kHomogeneous + "\"rgb Le\" [ 1 1 1 ] \"float Lescale\" [ 1 2 ]")
+                  .failsWith("found 2 values, expected 1"));
+  EXPECT_TRUE(with(kHomogeneous + "\"float temperature\" [ 1 2 ]").warns("temperature"));
   EXPECT_TRUE(with(kGrid + "\"float Lescale\" [ 1 2 3 ]").failsWith("expected 1 or nx*ny*nz = 2"));
   EXPECT_TRUE(
       with(kGrid + "\"float temperature\" [ 1 2 3 ]").failsWith("found 3 values, expected nx*ny*nz = 2"));
-  EXPECT_TRUE(with(kGrid + "\"float temperature\" [ 1 -2 ]").failsWith("voxel (1, 0, 0) is negative"));
+  EXPECT_TRUE(with(kGrid + "\"float temperature\" [ 1 -2 ]").warns("negative value at voxel (1, 0, 0)"));
   EXPECT_TRUE(with(kGrid + "\"float temperature\" [ 1 2 ] \"rgb Le\" [ 1 1 1 ]").failsWith("one of them"));
-  EXPECT_TRUE(with(kGrid + "\"rgb le\" [ 1 1 1 ]").failsWith("Le"));
+  EXPECT_TRUE(with(kGrid + "\"rgb le\" [ 1 1 1 ]").warns("Le"));
   EXPECT_TRUE(with(kGrid + "\"rgb Le\" [ 1 1 1 ] \"rgb sigma_s\" [ 0 0 0 ] \"string law\" \"davis\" ")
                   .failsWith("exponential"));
   EXPECT_TRUE(with(kGrid + "\"rgb Le\" [ 1 1 1 ] ").isSilent());

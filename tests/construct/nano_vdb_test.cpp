@@ -92,12 +92,23 @@ TEST_F(ConstructNanoVdb, SaysWhatIsWrongAndWhere) {
   expect("", "parameter \"string filename\" is missing", "t.pbrt:2:1");
   expect("\"string filename\" \"none.nvdb\"", "there is no file", "t.pbrt:2:");
   expect("\"string filename\" \"broken.nvdb\"", "truncated", "broken.nvdb");
-  expect("\"string filename\" \"cloud.vdb\"", "convert it with: vdb2pbrt", "cloud.vdb");
+  expect("\"string filename\" \"cloud.vdb\"", "\"vdb2pbrt cloud.vdb\" makes an .nvdb file of it",
+         "t.pbrt:2:");
+  expect("\"string filename\" \"\"", "the name is empty, expected a file", "t.pbrt:2:");
   expect(two_ + "\"string grid\" \"smok\" \"float densityscale\" -1", "expected >= 0", "t.pbrt:2:");
   expect(two_ + "\"string grid\" \"Smoke\"", "no grid is called \"Smoke\"; the file holds:", "t.pbrt:2:88");
   expect(two_, "several grids could be the density: name one", "t.pbrt:2:");
-  expect(one_ + "\"float densityoffset\" -0.26", "gives the density", "one.nvdb");
-  expect(one_ + "\"string grd\" \"smoke\"", "unknown parameter \"grd\"", "t.pbrt:2:");
+  EXPECT_TRUE(with(one_ + "\"string grd\" \"smoke\"").warns("unknown parameter \"grd\""));
+}
+
+TEST_F(ConstructNanoVdb, NegativeDensitiesCountAsZeroAndAreToldOnce) {
+  const Attempt a = with(one_ + "\"float densityoffset\" -0.26");
+  ASSERT_TRUE(a.warns("the grid holds ")) << a.messages();
+  EXPECT_TRUE(a.warns("negative values, the first at ")) << a.messages();
+  EXPECT_EQ(a.diagnostics.all().size(), 1u) << a.messages();
+  for (const double x : media(a)) EXPECT_GE(x, 0);
+  const StrictAttempts strict;
+  EXPECT_TRUE(with(one_ + "\"float densityoffset\" -0.26").failsWith("the grid holds "));
 }
 
 TEST_F(ConstructNanoVdb, AFileThatNoShapeUsesIsNotRead) {

@@ -224,20 +224,35 @@ void expectSame(const std::vector<Effect>& pairs, const Try& make, const Measure
   }
 }
 
-/// A text and the error it must give; `place` "" is not looked at.
+/// Whether a mistake is an error always, or a warning that is one with --strict.
+enum class Verdict { Error, Tolerated };
+inline constexpr Verdict kTolerated = Verdict::Tolerated;
+
+/// A text and what must be said of it; `place` "" is not looked at.
 struct Mistake {
   std::string text, message, place;
+  Verdict verdict = Verdict::Error;
 };
 
 template <class Try>
 void expectMistakes(const std::vector<Mistake>& mistakes, const Try& make) {
-  for (const Mistake& m : mistakes) {
-    const Attempt a = make(m.text);
-    const Diagnostic* found = a.find(Severity::Error, m.message);
-    EXPECT_FALSE(a.made.has_value()) << m.text;
+  const auto expectSaid = [](const Mistake& m, const Attempt& a, Severity severity) {
+    const Diagnostic* found = a.find(severity, m.message);
+    EXPECT_EQ(a.made.has_value(), severity == Severity::Warning) << m.text << '\n' << a.messages();
     ASSERT_NE(found, nullptr) << m.text << "\nsays\n" << a.messages() << "\nbut not\n" << m.message;
-    if (m.place.empty()) continue;
-    EXPECT_EQ(found->location.toString(), m.place) << m.text << '\n' << a.messages();
+    if (m.verdict == kTolerated) {
+      EXPECT_NE(found->message.find("--strict"), std::string::npos) << found->message;
+    }
+    if (!m.place.empty()) {
+      EXPECT_EQ(found->location.toString(), m.place) << m.text << '\n' << a.messages();
+    }
+  };
+  for (const Mistake& m : mistakes) {
+    const bool isTolerated = m.verdict == kTolerated;
+    expectSaid(m, make(m.text), isTolerated ? Severity::Warning : Severity::Error);
+    if (!isTolerated) continue;
+    const StrictAttempts strict;
+    expectSaid(m, make(m.text), Severity::Error);
   }
 }
 

@@ -193,11 +193,11 @@ TEST_F(Pbrt, ShowsEveryProblemOfASceneAtOnceAndWritesNothing) {
   EXPECT_FALSE(folder_.has("o.exr"));
 }
 
-TEST_F(Pbrt, LenientTurnsUnknownNamesIntoWarnings) {
+TEST_F(Pbrt, UnknownNamesAreWarningsThatStrictMakesErrors) {
   folder_.write("odd.pbrt",
                 "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"integer spam\" 16\n"
                 "WorldBegin\nMaterial \"matt\"\nShape \"blob\"\nLightSource \"infinite\"\nWorldEnd\n");
-  EXPECT_EQ(pbrt("--outfile o.exr odd.pbrt").status, 1);
+  EXPECT_EQ(pbrt("--strict --outfile o.exr odd.pbrt").status, 1);
   const ProcessResult r = pbrt("--lenient --outfile o.exr odd.pbrt");
   EXPECT_EQ(r.status, 0) << r.output;
   EXPECT_NE(r.output.find("warning"), std::string::npos);
