@@ -26,6 +26,16 @@ double valueOf(const Stretch& s, double x) {
   return f;
 }
 
+/// What no value on [from, to] exceeds (sign 1) or falls below (sign -1), rounding included: the terms of
+/// valueOf at their extremes, added in its order.
+double limitOf(const Stretch& s, double from, double to, double sign) {
+  const auto extreme = [&](double a, double b) { return sign > 0 ? std::max(a, b) : std::min(a, b); };
+  double f = s.constant + extreme(s.slope * from, s.slope * to);
+  for (const auto& w : s.waves) f += extreme(w.amplitude, -w.amplitude);
+  for (const auto& b : s.bumps) f += extreme(b.height, 0.0);
+  return f;
+}
+
 double slopeOf(const Stretch& s, double x) {
   double f = s.slope;
   for (const auto& w : s.waves) f -= w.amplitude * w.frequency * std::sin(w.frequency * x + w.phase);
@@ -52,9 +62,11 @@ double integralOf(const Stretch& s, double a, double b) {
   return sum;
 }
 
-/// Size of the terms: the unit of rounding errors.
+/// Size of the terms: the unit of rounding errors. 0 for straight lines, whose rounded values keep order, so
+/// that their extrema are those at the ends exactly.
 double magnitudeOf(const Stretch& s) {
-  double sum = 0;
+  if (s.waves.empty() && s.bumps.empty()) return 0;
+  double sum = std::abs(s.constant) + std::abs(s.slope * s.end);
   for (const auto& w : s.waves) sum += std::abs(w.amplitude);
   for (const auto& b : s.bumps) sum += std::abs(b.height);
   return sum;
@@ -162,11 +174,12 @@ CanonicalFunction::Range CanonicalFunction::range(double a, double b) const {
   for (const Stretch& s : stretches_) {
     const double from = std::max(a, begin), to = std::min(b, s.end);
     if (from <= to) {
-      const double slack = 4 * std::numeric_limits<double>::epsilon() * magnitudeOf(s);
+      const double slack = 8 * std::numeric_limits<double>::epsilon() * magnitudeOf(s);
+      const double least = limitOf(s, from, to, -1), most = limitOf(s, from, to, 1);
       const auto include = [&](double x) {
         const double value = valueOf(s, x);
-        range.min = std::min(range.min, std::max(0.0, value - slack));
-        range.max = std::max(range.max, std::max(0.0, value + slack));
+        range.min = std::min(range.min, std::max({0.0, value - slack, least}));
+        range.max = std::max(range.max, std::max(0.0, std::min(value + slack, most)));
       };
       include(from);
       include(to);

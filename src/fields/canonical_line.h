@@ -15,13 +15,11 @@ namespace pbrtmedia {
 /// once.
 ///
 /// The function sits at [offset, offset + length] of its axis and density(s) looks at the point offset + s in
-/// double, so a large offset costs digits as it would in a scene. The function must outlive the line.
-/// Thread-safe once made, unless it records.
+/// double, so a large offset costs digits as it would in a scene. Densities and bounds are doubles, as the
+/// integrals are: what they deviate from integral() by is a few roundings of double. The function must
+/// outlive the line. Thread-safe once made, unless it records.
 class CanonicalLine {
  public:
-  /// Bounds may be untrue, so estimators probe empty stretches; with true bounds that costs a look-up there.
-  static constexpr bool kProvenBounds = false;
-
   static constexpr unsigned kNone = static_cast<unsigned>(-1);
   struct Setup {
     double length = 1;         ///< >= 0
@@ -36,19 +34,22 @@ class CanonicalLine {
   };
   struct Interval {
     double sEnter, sExit;
-    SuperVoxel bound;
+    DensityBounds<double> bound;
   };
 
   CanonicalLine(const CanonicalFunction& function, const Setup& setup);
 
   double length() const { return setup_.length; }
-  float density(double s) const {
+  /// The bounds are known to be true unless the setup spoils them, by a control below 1, a lower bound above
+  /// 1, or a blind interval.
+  bool hasProvenBounds() const { return hasProvenBounds_; }
+  double density(double s) const {
     if (record_ != nullptr) [[unlikely]] {
       record_->push_back(s);
     }
-    return static_cast<float>(setup_.scale * (*function_)(((setup_.offset + s) - setup_.offset) * toX_));
+    return setup_.scale * (*function_)(((setup_.offset + s) - setup_.offset) * toX_);
   }
-  void densities(std::span<const double> s, std::span<float> out) const { densitiesOneByOne(*this, s, out); }
+  void densities(std::span<const double> s, std::span<double> out) const { densitiesOneByOne(*this, s, out); }
   template <class Visit>
   void walk(Visit&& visit) const {
     for (const Interval& i : intervals_) {
@@ -81,6 +82,7 @@ class CanonicalLine {
   const CanonicalFunction* function_;
   Setup setup_;
   double toX_;  ///< x = s * toX_
+  bool hasProvenBounds_;
   std::vector<Interval> intervals_;
   std::vector<double>* record_ = nullptr;
 };

@@ -34,8 +34,6 @@ concept PiecewiseCubicField = requires(const Field& field, const LocalLine& line
 template <class Field>
 class FieldLine {
  public:
-  static constexpr bool kProvenBounds = Field::kProvenBounds;
-
   /// Nothing when the segment meets no density: it misses the occupied box, has no length there, or is not
   /// finite in the field's space. So every point of a line can be looked up.
   static std::optional<FieldLine> clip(const Field& field, const SuperVoxels& bounds,
@@ -61,6 +59,7 @@ class FieldLine {
     return FieldLine(field, bounds, line, length, tMin);
   }
 
+  static constexpr bool hasProvenBounds() { return Field::kProvenBounds; }
   double tEntry() const { return tEntry_; }
   double length() const { return length_; }
   float density(double s) const { return field_->density(line_.o + s * line_.d); }

@@ -38,9 +38,9 @@ struct DecompositionTracking {
     const double sigmaMax = maxOf(query.sigmaT);
     if (!(sigmaMax > 0)) return {.weight = query.importance};
     const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
-    const auto rateOf = [](const SuperVoxel& bound) { return static_cast<double>(bound.upper); };
+    const auto rateOf = [](const auto& bound) { return static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
-        line, query, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
+        line, query, rng, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
           const double upper = bound.upper, lower = std::min(static_cast<double>(bound.lower), upper);
           Channels<N>& weight = flight.weight;
           // The share of the control, before the density is known: real in proportion to what it weighs.

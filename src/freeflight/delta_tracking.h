@@ -37,12 +37,13 @@ struct DeltaTracking {
     const double sigmaMax = maxOf(query.sigmaT);
     if (!(sigmaMax > 0)) return {.weight = query.importance};
     const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
-    const auto rateOf = [](const SuperVoxel& bound) { return static_cast<double>(bound.upper); };
+    const auto rateOf = [](const auto& bound) { return static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
-        line, query, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
+        line, query, rng, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
           const double upper = bound.upper, u = rng.uniformDouble();
-          if constexpr (N == 1 && Line::kProvenBounds) {
-            if (u * upper < bound.lower) return Collision::Real;
+          if constexpr (N == 1) {
+            if (line.hasProvenBounds() && u * upper < static_cast<double>(bound.lower))
+              return Collision::Real;
           }
           const double density = std::min(lookUpAt(line, s, bound, flight), upper);
           if constexpr (N == 1) return u * upper < density ? Collision::Real : Collision::Null;

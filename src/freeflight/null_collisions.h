@@ -26,7 +26,7 @@ FlightSample<N> flyWithNullCollisions(const Line& line, const FlightQuery<N>& qu
   const double sigmaMax = maxOf(query.sigmaT);
   if (!(sigmaMax > 0)) return flight;
   double depth = rng.exponential();  // optical depth of the majorant to the next tentative collision
-  line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
+  line.walk([&](double sEnter, double sExit, const auto& bound) {
     if (!(bound.upper > 0)) {
       probeTrusted(line, sEnter, sExit, 0, rng, flight.tally);
       return true;
@@ -55,7 +55,7 @@ FlightSample<N> flyWithNullCollisions(const Line& line, const FlightQuery<N>& qu
 
 /// Looks up the density at a tentative collision and counts what it finds.
 template <DensityLine Line, std::size_t N>
-double lookUpAt(const Line& line, double s, const SuperVoxel& bound, FlightSample<N>& flight) {
+double lookUpAt(const Line& line, double s, const auto& bound, FlightSample<N>& flight) {
   return boundedLookup(line, s, bound.upper, flight.tally);
 }
 

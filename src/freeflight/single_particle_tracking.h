@@ -64,11 +64,9 @@ struct SingleParticleTracking {
     const double sigmaMax = maxOf(query.sigmaT);
     if (!(sigmaMax > 0)) return {.weight = query.importance};
     const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
-    const auto rateOf = [&](const SuperVoxel& bound) {
-      return boundScale * static_cast<double>(bound.upper);
-    };
+    const auto rateOf = [&](const auto& bound) { return boundScale * static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
-        line, query, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
+        line, query, rng, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
           const double density = lookUpAt(line, s, bound, flight), sampling = rateOf(bound);
           Channels<N>& weight = flight.weight;
           Channels<N> r;

@@ -45,11 +45,12 @@ struct WeightedDeltaTracking {
     const double sigmaMax = maxOf(query.sigmaT);
     if (!(sigmaMax > 0)) return {.weight = query.importance};
     const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
-    const auto rateOf = [](const SuperVoxel& bound) { return static_cast<double>(bound.upper); };
+    const auto rateOf = [](const auto& bound) { return static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
-        line, query, rng, rateOf, [&](double s, const SuperVoxel& bound, FlightSample<N>& flight) {
+        line, query, rng, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
           // A collision that is real for certain needs proof.
-          const double upper = bound.upper, lower = Line::kProvenBounds ? bound.lower : 0.0f;
+          const double upper = bound.upper;
+          const double lower = line.hasProvenBounds() ? static_cast<double>(bound.lower) : 0;
           const double u = rng.uniformDouble();
           if constexpr (N == 1) {
             if (u * upper < lower) return Collision::Real;

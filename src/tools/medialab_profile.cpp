@@ -45,7 +45,7 @@ Profile measure(const ProfileOptions& o, const CanonicalFunction& function, LabT
   return profile;
 }
 
-SuperVoxel boundAt(const CanonicalLine& line, double s) {
+DensityBounds<double> boundAt(const CanonicalLine& line, double s) {
   for (const CanonicalLine::Interval& i : line.intervals()) {
     if (s <= i.sExit) return i.bound;
   }
@@ -56,8 +56,8 @@ std::vector<LabTable::Cell> rowAt(const Profile& profile, const std::string& kin
                                   double s) {
   const CanonicalLine& line = profile.problem.line;
   const double sigma = profile.problem.sigmaT;
-  const SuperVoxel bound = boundAt(line, s);
-  const auto extinction = [&](float density) { return sigma * static_cast<double>(density); };
+  const DensityBounds<double> bound = boundAt(line, s);
+  const auto extinction = [&](double density) { return sigma * density; };
   return {kind,
           index,
           s,
@@ -93,7 +93,7 @@ Image plot(const Profile& profile) {
   const int rows = static_cast<int>(profile.labels.size());
   LabCanvas canvas(kLeft + kWidth + 220, kTop + kHeight + 40 + rows * kTickRow);
   double top = static_cast<double>(0);
-  for (const auto& i : line.intervals()) top = std::max(top, static_cast<double>(i.bound.upper));
+  for (const auto& i : line.intervals()) top = std::max(top, i.bound.upper);
   const double width = line.length();
   top = std::max(top, line.function().range().max * line.setup().scale);
   const auto xOf = [&](double s) { return kLeft + s / width * kWidth; };
@@ -108,7 +108,7 @@ Image plot(const Profile& profile) {
     }
   }
   for (int x = 0; x < kWidth; ++x) {
-    const auto value = [&](int column) { return static_cast<double>(line.density(width * column / kWidth)); };
+    const auto value = [&](int column) { return line.density(width * column / kWidth); };
     canvas.line(kLeft + x, yOf(value(x)), kLeft + x + 1, yOf(value(x + 1)), kField);
   }
   canvas.frame(kLeft, kTop, kWidth, kHeight + 1, kInk);

@@ -76,9 +76,9 @@ void addShapes(Cases& all) {
 }
 
 void addUnits(Cases& all) {
-  all.add("denormal-density", named("constant"), 1, {.scale = 0x1p-140});
-  all.add("denormal-density-step", made("powers", {{.end = 0.5, .constant = 0.5}, {.end = 1, .constant = 2}}),
-          1, {.scale = 0x1p-140}, false);
+  all.add("tiny-density", named("constant"), 1, {.scale = 0x1p-140});
+  all.add("tiny-density-step", made("powers", {{.end = 0.5, .constant = 0.5}, {.end = 1, .constant = 2}}), 1,
+          {.scale = 0x1p-140}, false);
   all.add("huge-density", named("cosine"), 1, {.scale = 1e37}, false);
   all.add("length-1e-30", named("cosine"), 1, {.length = 1e-30});
   all.add("length-1e30", named("cosine"), 1, {.length = 1e30});

@@ -19,10 +19,10 @@ namespace {
 
 /// A line that cannot be cut into pieces; stands for any such in the question below.
 struct PlainLine {
-  static constexpr bool kProvenBounds = false;
+  static constexpr bool hasProvenBounds() { return false; }
   double length() const { return 0; }
-  float density(double) const { return 0; }
-  void densities(std::span<const double>, std::span<float>) const {}
+  double density(double) const { return 0; }
+  void densities(std::span<const double>, std::span<double>) const {}
   template <class Visit>
   void walk(Visit&&) const {}
 };

@@ -19,8 +19,9 @@ constexpr double kLogRare = -14.38;  ///< log of the two-sided probability of |z
 constexpr double kFewTrials = 8;
 /// One trial's share of the variance above which the variance is not known.
 constexpr double kDominated = 0.2;
-/// Densities are floats: half a unit in the last place of each, and an allowance for rounding in double.
-constexpr double kDensityRounding = 6e-8, kRounding = 1e-9;
+/// Of transmittance, relative, per unit of 1 + optical depth: densities and bounds are doubles, so what is
+/// left are sums and products of many roundings.
+constexpr double kRounding = 1e-12;
 constexpr double kRangeRounding = 1e-9;
 /// Above this depth of the control a single estimate may take seconds.
 constexpr double kCostlyControl = 1e7;
@@ -121,7 +122,7 @@ StressVerdict judge(const EstimatorTraits& t, const StressSetting& s, const Isol
                     "leaves [0, 1]: " + formatNumber(stats.least) + " to " + formatNumber(stats.most));
   }
   // A depth known to rounding only leaves T unknown by as much.
-  const double rounding = s.exact * (kDensityRounding * s.depth + kRounding) + 1e-300;
+  const double rounding = s.exact * kRounding * (1 + s.depth) + 1e-300;
   const double distance = v.mean() - s.exact;
   const double beyond = std::copysign(std::max(0.0, std::abs(distance) - rounding), distance);
   verdict.z = beyond == 0 ? 0 : beyond / v.meanError();

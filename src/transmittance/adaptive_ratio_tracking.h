@@ -66,7 +66,7 @@ struct AdaptiveRatioTracking {
     double exponent = 0;  // of the common factor
     bool isZero = false;
     double depth = stream.exponential();
-    line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
+    line.walk([&](double sEnter, double sExit, const auto& bound) {
       const double upper = bound.upper, majorant = sigmaMax * upper;
       if (!(upper > 0)) {
         probeTrusted(line, sEnter, sExit, 0, stream.rng(), tally);

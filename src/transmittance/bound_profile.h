@@ -46,7 +46,7 @@ class BoundProfile {
   template <DensityLine Line>
   explicit BoundProfile(const Line& line) : memory_(&buffer_, sizeof buffer_), pieces_(&memory_) {
     pieces_.reserve(kInPlace);
-    line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
+    line.walk([&](double sEnter, double sExit, const auto& bound) {
       const double length = sExit - sEnter;
       hasMeans_ = hasMeans_ && bound.hasMean();
       const double mean =

@@ -21,9 +21,8 @@ double boundedLookup(const Line& line, double s, double upper, LookupTally& tall
 /// bounds cost nothing.
 template <DensityLine Line>
 void probeTrusted(const Line& line, double sEnter, double sExit, double upper, Rng& rng, LookupTally& tally) {
-  if constexpr (!Line::kProvenBounds) {
-    boundedLookup(line, sEnter + (sExit - sEnter) * rng.uniformDouble(), upper, tally);
-  }
+  if (line.hasProvenBounds()) return;
+  boundedLookup(line, sEnter + (sExit - sEnter) * rng.uniformDouble(), upper, tally);
 }
 
 }  // namespace pbrtmedia

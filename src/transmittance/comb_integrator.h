@@ -40,8 +40,8 @@ class CombIntegrator {
         comb_(settings.comb),
         teeth_(teeth),
         matches_(settings.matches(teeth)),
-        warps_(shouldWarp(profile, settings.warp, teeth)),
-        skipsEmpty_(Line::kProvenBounds && !warps_ && hasEmpty(profile)),
+        warps_(shouldWarp(line, profile, settings.warp, teeth)),
+        skipsEmpty_(line.hasProvenBounds() && !warps_ && hasEmpty(profile)),
         checks_(checksBounds),
         piece_(profile.pieces().data()),
         stream_(stream),
@@ -84,6 +84,7 @@ class CombIntegrator {
   /// one.
   static constexpr std::uint64_t kLeastIntervalsPerWarpedTooth = 2;
 
+  using Density = DensityOf<Line>;
   struct Ends {
     double first, last;  ///< h(0), h(1)
   };
@@ -92,11 +93,11 @@ class CombIntegrator {
     return std::any_of(profile.pieces().begin(), profile.pieces().end(),
                        [](const BoundPiece& piece) { return !(piece.upper > 0); });
   }
-  static bool shouldWarp(const BoundProfile& profile, Warp warp, std::uint64_t teeth) {
+  static bool shouldWarp(const Line& line, const BoundProfile& profile, Warp warp, std::uint64_t teeth) {
     const std::uint64_t intervals = profile.pieces().size();
     if (warp == Warp::Off || intervals < 2 || !profile.hasMeans() || !(profile.mean() > 0)) return false;
     if (warp == Warp::Auto && teeth > intervals / kLeastIntervalsPerWarpedTooth) return false;
-    return Line::kProvenBounds || !hasEmpty(profile);
+    return line.hasProvenBounds() || !hasEmpty(profile);
   }
 
   void placeTeeth(std::uint64_t first, double offset, std::span<double> z) {
@@ -131,7 +132,7 @@ class CombIntegrator {
       s[n] = value * profile_.length();
       if (!skipsEmpty_ || pieceAt(s[n]).upper > 0) ++n;
     }
-    std::array<float, kBatch> density;
+    std::array<Density, kBatch> density;
     lookUp(std::span(s).first(n), std::span(density).first(n));
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) sum += static_cast<double>(density[i]);
@@ -139,16 +140,16 @@ class CombIntegrator {
   }
   /// Sum of rho / (mean of its super-voxel) at the teeth.
   double sumWarped(std::span<const double> z) {
-    std::array<double, kBatch> s, weight;
+    std::array<double, kBatch> s, mean;
     for (std::size_t i = 0; i < z.size(); ++i) {
       const BoundProfile::Place place = profile_.place(BoundProfile::Weight::Mean, z[i] * profile_.mean());
       s[i] = place.s;
-      weight[i] = 1 / place.piece->mean;
+      mean[i] = place.piece->mean;
     }
-    std::array<float, kBatch> density;
+    std::array<Density, kBatch> density;
     lookUp(std::span(s).first(z.size()), std::span(density).first(z.size()));
     double sum = 0;
-    for (std::size_t i = 0; i < z.size(); ++i) sum += static_cast<double>(density[i]) * weight[i];
+    for (std::size_t i = 0; i < z.size(); ++i) sum += static_cast<double>(density[i]) / mean[i];
     return sum;
   }
   Ends lookUpEnds() {
@@ -159,12 +160,12 @@ class CombIntegrator {
       s = {first.s, last.s};
       scale = {profile_.mean() / first.piece->mean, profile_.mean() / last.piece->mean};
     }
-    std::array<float, 2> density;
+    std::array<Density, 2> density;
     lookUp(s, density);
     return {static_cast<double>(density[0]) * scale[0], static_cast<double>(density[1]) * scale[1]};
   }
 
-  void lookUp(std::span<const double> s, std::span<float> density) {
+  void lookUp(std::span<const double> s, std::span<Density> density) {
     if (s.empty()) return;
     line_.densities(s, density);
     tally_.lookups += s.size();

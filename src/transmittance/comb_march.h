@@ -34,11 +34,11 @@ struct CombMarch {
     const double sigmaMax = maxOf(sigmaT);
     if (!(sigmaMax > 0)) return estimate;
     const BoundProfile profile(line);
-    if (!(profile.length() > 0) || (Line::kProvenBounds && !(profile.upper() > 0))) return estimate;
+    if (!(profile.length() > 0) || (line.hasProvenBounds() && !(profile.upper() > 0))) return estimate;
     const double wanted = teethUnder(sigmaMax * profile.excess());
     const std::uint64_t teeth = teethOf(wanted, mostTeeth);
     if (mostTeeth > 0 && teeth < teethOf(wanted, 0)) estimate.tally.capped = 1;
-    CombIntegrator<Line> combs(line, profile, comb, teeth, !Line::kProvenBounds, stream, estimate.tally);
+    CombIntegrator<Line> combs(line, profile, comb, teeth, !line.hasProvenBounds(), stream, estimate.tally);
     estimate.value = valueFrom(combs);
     return estimate;
   }

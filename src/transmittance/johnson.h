@@ -60,7 +60,7 @@ struct Johnson {
     const LookupLimit limit(maxLookups);
     const double keep = 1 - 1 / static_cast<double>(n);
     PoissonWalk walk(stream);
-    line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
+    line.walk([&](double sEnter, double sExit, const auto& bound) {
       const double upper = bound.upper;
       if (!(upper > 0)) {
         probeTrusted(line, sEnter, sExit, 0, stream.rng(), tally);

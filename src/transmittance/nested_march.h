@@ -48,7 +48,7 @@ class NestedMarch {
     const std::uint64_t key = comb_ == Comb::Stratified ? stream.rng().next() : 0, all = lookups();
     const double scale = line.length() / static_cast<double>(teeth_);
     std::array<double, kBatch> s;
-    std::array<float, kBatch> density;
+    std::array<DensityOf<Line>, kBatch> density;
     std::uint64_t inLeaf = 0, leafIndex = 0, tooth = 0;  // of the tooth placed next
     double sum = 0;
     for (std::uint64_t first = 0; first < all; first += kBatch) {

@@ -26,8 +26,8 @@ namespace pbrtmedia {
 ///
 /// Bias: none, wherever the bounds are positive. Range: [0, 1] while bounds hold (without roulette); any sign
 /// and more variance beyond. Variance in one channel, without roulette: T^2 expm1(integral of mu^2 /
-/// majorant). Cost: the optical depth of the majorant at most; empty cells cost no look-up, and vacuum is
-/// exactly 1.
+/// majorant). Cost: the optical depth of the majorant at most, and no more behind a product of exactly 0, as
+/// a density that is its bound leaves it; empty cells cost no look-up, and vacuum is exactly 1.
 struct RatioTracking {
   static constexpr std::string_view kName = "ratio";
 
@@ -63,13 +63,12 @@ struct RatioTracking {
     LookupTally& tally = estimate.tally;
     const LookupLimit limit(maxLookups);
     double depth = stream.exponential();  // optical depth of the majorant to the next tentative collision
-    line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
+    line.walk([&](double sEnter, double sExit, const auto& bound) {
       if (!(bound.upper > 0)) {
         probeTrusted(line, sEnter, sExit, 0, stream.rng(), tally);
         return true;
       }
-      const double majorant = sigmaMax * static_cast<double>(bound.upper), inverse = 1 / majorant;
-      const double inverseUpper = 1 / static_cast<double>(bound.upper);
+      const double upper = bound.upper, majorant = sigmaMax * upper, inverse = 1 / majorant;
       for (double s = sEnter;;) {
         const double depthToExit = (sExit - s) * majorant;
         if (depth >= depthToExit) {
@@ -78,7 +77,8 @@ struct RatioTracking {
         }
         if (limit.reached(tally)) return false;
         s += depth * inverse;
-        const Channels<N> null = nullShares(share, boundedLookup(line, s, bound.upper, tally) * inverseUpper);
+        // Divided, not multiplied by 1 / upper: a density that is its bound leaves exactly nothing.
+        const Channels<N> null = nullShares(share, boundedLookup(line, s, upper, tally) / upper);
         ++tally.nullCollisions;
         for (std::size_t c = 0; c < N; ++c) weight[c] *= null[c];
         if (!survives(weight, stream)) return false;

@@ -58,7 +58,7 @@ struct ResidualRatioTracking {
     ChannelProducts<N> weight;
     double minorant = 0;  // integral of the lower bounds
     PoissonWalk walk(stream);
-    line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
+    line.walk([&](double sEnter, double sExit, const auto& bound) {
       const double upper = bound.upper, lower = bound.lower, excess = upper - lower;
       minorant += (sExit - sEnter) * lower;
       if (!(excess > 0)) {

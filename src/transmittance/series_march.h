@@ -61,13 +61,13 @@ struct SeriesMarch {
     const double sigmaMax = maxOf(sigmaT);
     if (!(sigmaMax > 0)) return estimate;
     const BoundProfile profile(line);
-    if (!(profile.length() > 0) || (Line::kProvenBounds && !(profile.upper() > 0))) return estimate;
+    if (!(profile.length() > 0) || (line.hasProvenBounds() && !(profile.upper() > 0))) return estimate;
     // Beyond kOpaque nothing distinguishes controls any more, but infinity would not be a number of teeth.
     constexpr double kOpaque = 1e15;
     const double control = std::min(sigmaMax * profile.excess(), kOpaque);
-    const OrderRoulette orders = ordersFor(control, Line::kProvenBounds);
+    const OrderRoulette orders = ordersFor(control, line.hasProvenBounds());
     CombIntegrator<Line> combs(line, profile, comb, teethFor(control, orders),
-                               checksBounds || !Line::kProvenBounds, stream, estimate.tally);
+                               checksBounds || !line.hasProvenBounds(), stream, estimate.tally);
     const double given = pivot == Pivot::Majorant ? profile.upper() : pivotDepth / sigmaMax;
     if (roulette == Roulette::Cumulative) {
       estimate.value = cumulative(sigmaT, pivotOr(given, combs), combs, stream, estimate.tally);

@@ -55,7 +55,7 @@ struct TrackLength {
     LookupTally& tally = estimate.tally;
     const LookupLimit limit(maxLookups);
     PoissonWalk walk(stream);
-    line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
+    line.walk([&](double sEnter, double sExit, const auto& bound) {
       const double upper = bound.upper;
       if (!(upper > 0)) {
         probeTrusted(line, sEnter, sExit, 0, stream.rng(), tally);

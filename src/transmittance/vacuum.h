@@ -13,14 +13,12 @@ namespace pbrtmedia {
 template <DensityLine Line>
 bool isVacuum(const Line& line, Rng& rng, LookupTally& tally) {
   bool vacuum = true;
-  line.walk([&](double, double, const SuperVoxel& bound) { return vacuum = !(bound.upper > 0); });
-  if constexpr (!Line::kProvenBounds) {
-    if (vacuum) {
-      line.walk([&](double sEnter, double sExit, const SuperVoxel&) {
-        probeTrusted(line, sEnter, sExit, 0, rng, tally);
-        return true;
-      });
-    }
+  line.walk([&](double, double, const auto& bound) { return vacuum = !(bound.upper > 0); });
+  if (vacuum && !line.hasProvenBounds()) {
+    line.walk([&](double sEnter, double sExit, const auto&) {
+      probeTrusted(line, sEnter, sExit, 0, rng, tally);
+      return true;
+    });
   }
   return vacuum;
 }

@@ -21,18 +21,18 @@ TEST_P(EveryLine, BoundsHoldMeansAreExactAndIntervalsJoin) {
     for (const CanonicalLine::Interval& i : line.intervals()) {
       EXPECT_EQ(i.sEnter, end);
       end = i.sExit;
-      integral += (i.sExit - i.sEnter) * static_cast<double>(i.bound.mean);
+      integral += (i.sExit - i.sEnter) * i.bound.mean;
       for (int j = 0; j <= 1000; ++j) {
-        const float density = line.density(i.sEnter + (i.sExit - i.sEnter) * j / 1000);
+        const double density = line.density(i.sEnter + (i.sExit - i.sEnter) * j / 1000);
         EXPECT_LE(density, i.bound.upper);
         EXPECT_GE(density, i.bound.lower);
       }
     }
     EXPECT_EQ(line.intervals().size(), superVoxels);
     EXPECT_EQ(end, 3);
-    EXPECT_NEAR(integral / line.integral(), 1, 1e-7);
-    EXPECT_GE(line.upperIntegral(), line.integral() * (1 - 1e-7));
-    EXPECT_LE(line.lowerIntegral(), line.integral() * (1 + 1e-7));
+    EXPECT_NEAR(integral / line.integral(), 1, 1e-13);
+    EXPECT_GE(line.upperIntegral(), line.integral() * (1 - 1e-13));
+    EXPECT_LE(line.lowerIntegral(), line.integral() * (1 + 1e-13));
   }
 }
 
@@ -43,11 +43,11 @@ TEST_P(EveryLine, PiecesOfPolynomialsIntegrateExactly) {
   line.walkPieces([&](double a, double b) {
     EXPECT_EQ(a, end);
     end = b;
-    sum += (b - a) * static_cast<double>(line.density((a + b) / 2));  // exact: degree <= 1
+    sum += (b - a) * line.density((a + b) / 2);  // exact: degree <= 1
     return true;
   });
   EXPECT_EQ(end, line.length());
-  EXPECT_NEAR(sum / line.integral(), 1, 1e-6);
+  EXPECT_NEAR(sum / line.integral(), 1, 1e-13);
 }
 
 INSTANTIATE_TEST_SUITE_P(CanonicalLine, EveryLine, ::testing::ValuesIn(canonicalFunctionNames()),
@@ -71,7 +71,7 @@ TEST(CanonicalLine, AnyLengthCarriesTheSameShape) {
   const CanonicalFunction f = findCanonicalFunction("cosine").value();
   for (const double length : {1e-30, 0.5, 1e30}) {
     const CanonicalLine line(f, {.length = length, .superVoxels = 5});
-    EXPECT_EQ(line.density(0.25 * length), static_cast<float>(f(0.25)));
+    EXPECT_DOUBLE_EQ(line.density(0.25 * length), f(0.25));
     EXPECT_DOUBLE_EQ(line.integral(), f.integral() * length);
     EXPECT_EQ(line.intervals().back().sExit, length);
   }
@@ -83,7 +83,31 @@ TEST(CanonicalLine, AnyLengthCarriesTheSameShape) {
 TEST(CanonicalLine, AnOffsetCostsDigitsOnly) {
   const CanonicalFunction f = findCanonicalFunction("cosine").value();
   const CanonicalLine line(f, {.offset = 1e6});
-  for (int i = 0; i <= 100; ++i) EXPECT_NEAR(line.density(i / 100.0), f(i / 100.0), 1e-7 + 20 * 1e-10);
+  for (int i = 0; i <= 100; ++i) EXPECT_NEAR(line.density(i / 100.0), f(i / 100.0), 20 * 1e-10);
+}
+
+TEST(CanonicalLine, KnowsWhetherItsBoundsAreTrue) {
+  const CanonicalFunction f = findCanonicalFunction("cosine").value();
+  const auto isProven = [&](const CanonicalLine::Setup& setup) {
+    return CanonicalLine(f, setup).hasProvenBounds();
+  };
+  EXPECT_TRUE(isProven({}));
+  EXPECT_TRUE(isProven({.control = 3, .lower = 1, .superVoxels = 8, .leastUpper = 7}));
+  EXPECT_FALSE(isProven({.control = 0.99}));
+  EXPECT_FALSE(isProven({.lower = 1.01}));
+  EXPECT_FALSE(isProven({.superVoxels = 8, .blind = 3}));
+  EXPECT_TRUE(isProven({.superVoxels = 8, .blind = 8})) << "there is no such interval";
+}
+
+TEST(CanonicalLine, BoundsHoldAtAnyOffset) {
+  const CanonicalFunction f = findCanonicalFunction("piecewise-random").value();
+  const CanonicalLine line(f, {.offset = 12345.678, .lower = 1, .superVoxels = 96});
+  for (const CanonicalLine::Interval& i : line.intervals()) {
+    for (const double s : {i.sEnter, std::nextafter(i.sEnter, 2.0), std::nextafter(i.sExit, 0.0)}) {
+      EXPECT_LE(line.density(s), i.bound.upper) << s;
+      EXPECT_GE(line.density(s), i.bound.lower) << s;
+    }
+  }
 }
 
 TEST(CanonicalLine, RecordsItsLookUps) {

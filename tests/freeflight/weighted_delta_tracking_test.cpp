@@ -60,7 +60,7 @@ TEST(WeightedDeltaTracking, DrawsDistancesFromTheExactDistribution) {
 
 /// The same with bounds that count as proven.
 struct ProvenLine : FunctionLine {
-  static constexpr bool kProvenBounds = true;
+  static constexpr bool hasProvenBounds() { return true; }
 };
 
 TEST(WeightedDeltaTracking, AsksForNoDensityWhereLowerAndUpperBoundAgree) {

@@ -16,7 +16,7 @@ namespace pbrtmedia::test {
 /// Or nothing but vacuum, or no length. Bounds: one per piece, or one for all; tight ones times `looseness`.
 class ContractLine {
  public:
-  static constexpr bool kProvenBounds = true;
+  static constexpr bool hasProvenBounds() { return true; }
   static constexpr double kEmptyEnd = .3, kHillEnd = 1, kFlatEnd = 1.5, kEnd = 2;
   static constexpr double kFlat = .75, kRampBegin = 1.5, kRampEnd = .25, kHill = 8;
   static constexpr double kMaximum = 1.5;

@@ -11,7 +11,7 @@ namespace pbrtmedia::test {
 
 /// A one-dimensional density with bounds of our choice (true or not), for estimators and samplers.
 struct FunctionLine {
-  static constexpr bool kProvenBounds = false;
+  static constexpr bool hasProvenBounds() { return false; }
   struct Interval {
     double sExit;
     SuperVoxel bound;

@@ -190,5 +190,23 @@ TEST(RatioTracking, IsExactPerChannelInAChromaticMedium) {
   }
 }
 
+TEST(RatioTracking, EndsWhereADensityIsItsBound) {
+  // For one float x in ten or so, x * (1 / x) rounds to something else than 1.
+  std::size_t awkward = 0;
+  for (float bound = 0.013f; bound < 50; bound *= 1.29f) {
+    const double x = double{bound};
+    awkward += x * (1 / x) != 1 ? 1 : 0;
+    const FunctionLine line{[x](double) { return x; }, {{1, {bound, 0}}}};
+    Rng rng(kSeed);
+    SampleStream stream(rng);
+    for (int n = 0; n < 50; ++n) {
+      const Estimate<1> estimate = RatioTracking()(line, Channels<1>{20 / x}, stream);
+      EXPECT_LE(estimate.tally.lookups, 1u);
+      EXPECT_EQ(estimate.value[0], estimate.tally.lookups == 0 ? 1 : 0);
+    }
+  }
+  EXPECT_GT(awkward, 0u) << "else nothing was tested";
+}
+
 }  // namespace
 }  // namespace pbrtmedia

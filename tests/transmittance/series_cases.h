@@ -47,13 +47,13 @@ class ControlledFunction {
 
 /// A line whose walk comes in `pieces` intervals of the one bound of the whole.
 struct CutLine {
-  static constexpr bool kProvenBounds = true;
+  static constexpr bool hasProvenBounds() { return true; }
   const CanonicalLine& whole;
   int pieces;
 
   double length() const { return whole.length(); }
-  float density(double s) const { return whole.density(s); }
-  void densities(std::span<const double> s, std::span<float> out) const { whole.densities(s, out); }
+  double density(double s) const { return whole.density(s); }
+  void densities(std::span<const double> s, std::span<double> out) const { whole.densities(s, out); }
   template <class Visit>
   void walk(Visit&& visit) const {
     for (int i = 0; i < pieces; ++i) {

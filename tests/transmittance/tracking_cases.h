@@ -18,7 +18,7 @@ namespace pbrtmedia::test {
 
 /// A FunctionLine whose bounds count as proven: no probes, so the cost is that of theory.
 struct ProvenLine : FunctionLine {
-  static constexpr bool kProvenBounds = true;
+  static constexpr bool hasProvenBounds() { return true; }
 };
 
 /// A density on [0, 1] with integral 1.

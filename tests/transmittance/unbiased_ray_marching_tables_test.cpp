@@ -30,7 +30,7 @@ constexpr std::uint64_t kSeed = 20241122;
 /// A density on [0, 1] as a table of 2^18 straight pieces (relative error below 1e-6), for many look-ups.
 class TabulatedLine {
  public:
-  static constexpr bool kProvenBounds = true;
+  static constexpr bool hasProvenBounds() { return true; }
 
   TabulatedLine(const CanonicalFunction& function, double upper)
       : values_(kCells + 2), upper_(static_cast<float>(upper)) {
