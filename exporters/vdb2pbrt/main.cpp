@@ -50,7 +50,8 @@ void addOptions(CLI::App& app, Arguments& a) {
           ->transform(CLI::CheckedTransformer(precisions, CLI::ignore_case))
           ->type_name("NAME");
   app.add_flag("--half", a.half, "the same as --precision fp16")->excludes(precision);
-  app.add_option("--tolerance", a.conversion.nvdb.tolerance, "fpn: largest error of a value (0.01)");
+  app.add_option("--tolerance", a.conversion.nvdb.tolerance, "fpn: largest error of a value (0.01)")
+      ->check(number(NumberRange::above(0)));
   app.add_flag("--zip", a.conversion.nvdb.zip, "pack the .nvdb file");
   const std::map<std::string, DenseForm> forms{{"inline", DenseForm::Inline}, {"gz", DenseForm::Gz}};
   app.add_option("--dense", a.conversion.dense,
@@ -65,10 +66,13 @@ void addOptions(CLI::App& app, Arguments& a) {
       ->transform(CLI::CheckedTransformer(rules, CLI::ignore_case))
       ->type_name("RULE");
   app.add_option("--sigma-a", a.sigmaA, "R G B: absorption at density 1, per world length (0 0 0)")
+      ->check(number(NumberRange::atLeast(0)))
       ->expected(3);
   app.add_option("--sigma-s", a.sigmaS, "R G B: scattering at density 1, per world length (1 1 1)")
+      ->check(number(NumberRange::atLeast(0)))
       ->expected(3);
-  app.add_option("--scale", a.conversion.include.scale, "multiplies both (1)");
+  app.add_option("--scale", a.conversion.include.scale, "multiplies both (1)")
+      ->check(number(NumberRange::atLeast(0)));
   app.add_option("--frames", a.frames, "FIRST-LAST or FIRST-LAST:STEP, for names with %d or %04d");
   app.add_flag("--skip-missing", a.skipMissing, "leave out frames that are not there (else an error)");
   app.add_flag("--quiet", a.quiet, "no notices");

@@ -3,23 +3,21 @@
 
 #include <glog/logging.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <iostream>
 #include <map>
 
-#include "base/diagnostics.h"
+#include "tools/command_line.h"
 
 namespace pbrtmedia {
 namespace {
 
 // Words that PBRT-v3 accepts with one dash as well.
 constexpr std::string_view kLongNames[] = {
-    "nthreads",  "outfile",   "png",         "cropwindow",   "quick",       "quiet",   "cat",
-    "toply",     "logdir",    "logtostderr", "minloglevel",  "v",           "help",    "spp",
-    "seed",      "stats",     "progress",    "time",         "strict",      "lenient", "verbose",
-    "tile-size", "pixeltype", "compression", "bounds-cache", "mediumparams"};
+    "nthreads",     "outfile",      "png",     "cropwindow",  "quick",       "quiet",
+    "cat",          "toply",        "logdir",  "logtostderr", "minloglevel", "v",
+    "help",         "spp",          "seed",    "stats",       "progress",    "time",
+    "strict",       "lenient",      "verbose", "tile-size",   "pixeltype",   "compression",
+    "bounds-cache", "mediumparams", "version"};
 
 /// "-quick" and "-nthreads=2" become "--quick" and "--nthreads=2"; numbers and file names stay.
 std::string normalised(const std::string& word) {
@@ -59,31 +57,35 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
   app.add_option("scene", scenes, "scene files, read in order with one continuous state")->type_name("FILE");
   const std::string render = "Rendering";
   app.add_option("--nthreads", options.threads, "worker threads; 0 (default): one per processor")
+      ->check(wholeNumber(0u, 4096u))
+      ->type_name("N")
       ->group(render);
   app.add_option("--outfile", outfile, "image file; overrides the scene's (.exr .png .pfm .tga)")
       ->group(render);
   app.add_flag("--png", options.png, "write the image as a PNG of the same name too")->group(render);
   app.add_option("--cropwindow", crop, "render only this part: fractions of the image, y down")
       ->expected(4)
+      ->check(number(NumberRange::between(0, 1)))
       ->allow_extra_args(false)  // what follows is the scene
       ->type_name("X0 X1 Y0 Y1")
       ->group(render);
   app.add_option("--spp", options.samplesPerPixel, "samples per pixel instead of the scene's")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40))
+      ->check(wholeNumber(std::int64_t{1}, std::int64_t{1} << 40))
       ->type_name("N")
       ->group(render);
   app.add_option("--seed", options.seed, "seed of all random numbers (default 0)")
+      ->check(wholeNumber(std::uint64_t{0}, ~std::uint64_t{0}))
       ->type_name("N")
       ->group(render);
   app.add_option("--time", options.timeLimit, "stop rendering after this many seconds, with a valid image")
-      ->check(CLI::PositiveNumber)
+      ->check(number(NumberRange::above(0)))
       ->type_name("SECONDS")
       ->group(render);
   app.add_flag("--quick", options.quick, "a quarter of the resolution each way, one sample per pixel")
       ->group(render);
   app.add_option("--tile-size", options.tileSize,
                  "edge of the square of pixels one thread takes (default 16)")
-      ->check(CLI::Range(1, 4096))
+      ->check(wholeNumber(1, 4096))
       ->type_name("PIXELS")
       ->group(render);
 
@@ -138,32 +140,14 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
   app.add_option("--logdir", logDirectory, "folder for log files")->group(other);
   app.add_flag("--logtostderr", logToStderr, "log to standard error instead of files")->group(other);
   app.add_option("--minloglevel", minLogLevel, "0 info, 1 warning, 2 error, 3 fatal")
-      ->check(CLI::Range(0, 3))
+      ->check(wholeNumber(0, 3))
       ->group(other);
-  app.add_option("--v", verbosity, "verbosity of the log")->group(other);
+  app.add_option("--v", verbosity, "verbosity of the log")->check(wholeNumber(0, 1000))->group(other);
 
   std::vector<std::string> words;
   for (int i = 1; i < argc; ++i) words.push_back(normalised(argv[i]));
   for (int i = 0; i < argc; ++i) options.commandLine += (i > 0 ? " " : "") + shellQuoted(argv[i]);
-  try {
-    std::vector<std::string> reversed(words.rbegin(), words.rend());
-    app.parse(reversed);
-  } catch (const CLI::CallForHelp&) {
-    std::cout << app.help();
-    return {std::nullopt, 0};
-  } catch (const CLI::ParseError& e) {
-    std::cerr << "pbrt: error: " << e.what();
-    for (const std::string& word : words) {
-      const std::string name = word.substr(0, word.find('='));
-      if (name.size() > 2 && name.compare(0, 2, "--") == 0 &&
-          std::find(std::begin(kLongNames), std::end(kLongNames), name.substr(2)) == std::end(kLongNames)) {
-        std::cerr << suggestion(name.substr(2), kLongNames);
-        break;
-      }
-    }
-    std::cerr << "\nRun 'pbrt --help' for all options.\n";
-    return {std::nullopt, 1};
-  }
+  if (const std::optional<int> status = parseCommandLine(app, words)) return {std::nullopt, *status};
 
   for (const std::string& scene : scenes) options.scenes.emplace_back(scene);
   if (options.scenes.empty()) options.scenes.emplace_back("-");
@@ -173,18 +157,7 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
   if (!crop.empty()) {
     std::array<float, 4> window{};
     std::copy(crop.begin(), crop.end(), window.begin());
-    for (const float edge : window) {
-      if (!(edge >= 0 && edge <= 1)) {
-        std::cerr << "pbrt: error: --cropwindow: found " << edge << ", expected fractions in [0, 1]\n";
-        return {std::nullopt, 1};
-      }
-    }
     options.cropWindow = window;
-  }
-  if (options.timeLimit && !std::isfinite(*options.timeLimit)) {
-    std::cerr << "pbrt: error: --time: found " << *options.timeLimit
-              << ", expected a finite number of seconds\n";
-    return {std::nullopt, 1};
   }
   options.progress = progress == "none"    ? ProgressMode::None
                      : progress == "plain" ? ProgressMode::Plain

@@ -10,17 +10,18 @@
 #include "base/stop_signal.h"
 #include "base/stopwatch.h"
 #include "construct/construct.h"
+#include "construct/scene_identity.h"
 #include "image/image.h"
 #include "integrators/render_loop.h"
 #include "main/kept_bounds.h"
 #include "main/output_files.h"
 #include "main/progress.h"
 #include "main/statistics_report.h"
-#include "main/version.h"
 #include "main/warnings.h"
 #include "scene/param_text.h"
 #include "scene/parser.h"
 #include "scene/print.h"
+#include "tools/build_info.h"
 
 namespace pbrtmedia {
 namespace {
@@ -71,17 +72,37 @@ std::string samplesPerPixelText(const RenderStatistics& s) {
   return mean.str();
 }
 
+std::string hexadecimal(std::uint64_t value) {
+  std::ostringstream text;
+  text << std::hex << value;
+  return text.str();
+}
+
+/// "sceneHash" says whether renders may be merged, the others what differs where they may not.
+void addIdentity(Image& image, const SceneIdentity& identity) {
+  image.metadata["sceneHash"] = hexadecimal(identity.hash());
+  image.metadata["sceneText"] = hexadecimal(identity.text);
+  if (!identity.mediumParams.empty()) image.metadata["mediumParams"] = identity.mediumParams;
+  // A header is no place for thousands of names.
+  constexpr std::size_t kMostFiles = 64;
+  std::string files;
+  for (std::size_t i = 0; i < identity.files.size() && i < kMostFiles; ++i) {
+    if (i > 0) files += '\n';
+    files += hexadecimal(identity.files[i].content) + ' ' + identity.files[i].name;
+  }
+  if (!files.empty()) image.metadata["sceneFiles"] = files;
+}
+
 Image withHeader(Image image, const RenderStatistics& statistics, const Options& options,
-                 std::uint64_t sceneHash) {
-  std::ostringstream hash, seconds;
-  hash << std::hex << sceneHash;
+                 const SceneIdentity& identity) {
+  std::ostringstream seconds;
   seconds << statistics.render.wall;
   image.metadata["command"] = options.commandLine;
-  image.metadata["version"] = std::string("pbrt-media ") + kVersion;
+  image.metadata["version"] = buildText();
   image.metadata["seed"] = std::to_string(options.seed);
   image.metadata["samples"] = samplesPerPixelText(statistics);
   image.metadata["seconds"] = seconds.str();
-  image.metadata["sceneHash"] = hash.str();
+  addIdentity(image, identity);
   return image;
 }
 
@@ -158,9 +179,10 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
     status = kExitBadInput;
     return std::nullopt;
   }
-  const std::uint64_t sceneHash = description.textHash;
+  SceneIdentity identity;
   std::optional<Construction> scene = [&] {
     const PhaseLine line(options.progress, options.quiet, "building " + sceneNames(options));
+    identity = identify(description, options.mediumParams, build.mediumParams);
     return construct(description, build, diagnostics);
   }();
   show(diagnostics, options.quiet);
@@ -190,7 +212,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   statistics.learning = result.learning;
 
   const Stopwatch writing;
-  writeRendered(scene->outfile, withHeader(scene->film->develop(), statistics, options, sceneHash), options,
+  writeRendered(scene->outfile, withHeader(scene->film->develop(), statistics, options, identity), options,
                 status);
   bounds.save(name, *scene->scene);
   statistics.write = writing.elapsed();

@@ -9,7 +9,7 @@
 
 #include "base/files.h"
 #include "main/progress.h"
-#include "main/version.h"
+#include "tools/build_info.h"
 
 namespace pbrtmedia {
 namespace {
@@ -120,7 +120,7 @@ std::string formatStatistics(const RenderStatistics& s) {
 }
 
 void writeStatistics(const std::filesystem::path& path, const std::vector<RenderStatistics>& renders) {
-  nlohmann::ordered_json root = {{"version", kVersion}, {"renders", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json root = {{"version", buildText()}, {"renders", nlohmann::ordered_json::array()}};
   for (const RenderStatistics& s : renders) root["renders"].push_back(toJson(s));
   writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary);

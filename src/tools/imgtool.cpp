@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -46,17 +47,31 @@ void addConvert(CLI::App& app, ConvertOptions& o, Run& run) {
       "resize, repeatpix, flipy. PNG and TGA are linearised on reading and sRGB-encoded on writing.");
   c->add_option("input", o.input, "image to read")->required();
   c->add_option("output", o.output, "image to write: .exr, .pfm, .png or .tga")->required();
-  c->add_option("--crop", o.crop, "x0 x1 y0 y1: pixels to keep, upper ends exclusive")->expected(4);
-  c->add_option("--scale", o.scale, "multiply values");
-  c->add_option("--exposure", o.exposure, "multiply values by 2^stops");
-  c->add_option("--despike", o.despike, "replace pixels of at least this luminance by the 3x3 median");
+  constexpr double kLargest = 1e30;  // of factors and luminances: well within float
+  c->add_option("--crop", o.crop, "x0 x1 y0 y1: pixels to keep, upper ends exclusive")
+      ->expected(4)
+      ->check(wholeNumber(0, std::numeric_limits<int>::max()));
+  c->add_option("--scale", o.scale, "multiply values")
+      ->check(number(NumberRange::between(-kLargest, kLargest)));
+  c->add_option("--exposure", o.exposure, "multiply values by 2^stops")
+      ->check(number(NumberRange::between(-100, 100)));
+  c->add_option("--despike", o.despike, "replace pixels of at least this luminance by the 3x3 median")
+      ->check(number(NumberRange::between(0, kLargest)));
   CLI::Option* level =
-      c->add_option("--bloomlevel", o.bloomLevel, "pixels of at least this luminance glow (off)");
-  c->add_option("--bloomwidth", o.bloom.width, "width of the blur in pixels, odd (15)")->needs(level);
-  c->add_option("--bloomscale", o.bloom.scale, "strength of the glow (0.3)")->needs(level);
-  c->add_option("--bloomiters", o.bloom.iterations, "number of successive blurs (5)")->needs(level);
+      c->add_option("--bloomlevel", o.bloomLevel, "pixels of at least this luminance glow (off)")
+          ->check(number(NumberRange::between(0, kLargest)));
+  c->add_option("--bloomwidth", o.bloom.width, "width of the blur in pixels, odd (15)")
+      ->check(wholeNumber(1, 9999))
+      ->needs(level);
+  c->add_option("--bloomscale", o.bloom.scale, "strength of the glow (0.3)")
+      ->check(number(NumberRange::between(0, kLargest)))
+      ->needs(level);
+  c->add_option("--bloomiters", o.bloom.iterations, "number of successive blurs (5)")
+      ->check(wholeNumber(1, 1000))
+      ->needs(level);
   CLI::Option* toneMap = c->add_flag("--tonemap", o.toneMap, "multiply by (1 + Y/maxluminance^2) / (1 + Y)");
   c->add_option("--maxluminance", o.maxLuminance, "luminance that tone mapping turns into 1 (1)")
+      ->check(number(NumberRange{.least = 0, .most = kLargest, .excludesLeast = true}))
       ->needs(toneMap);
   c->add_flag("--preservecolors", o.preserveColors, "divide by the largest component where it is above 1");
   c->add_option("--resize", o.resize, "WIDTHxHEIGHT");
@@ -64,7 +79,8 @@ void addConvert(CLI::App& app, ConvertOptions& o, Run& run) {
                                                     {"lanczos", ResizeFilter::Lanczos}};
   c->add_option("--resizefilter", o.resizeFilter, "box (default) or lanczos")
       ->transform(CLI::CheckedTransformer(filters, CLI::ignore_case));
-  c->add_option("--repeatpix", o.repeatPixels, "repeat pixels in both directions (1)");
+  c->add_option("--repeatpix", o.repeatPixels, "repeat pixels in both directions (1)")
+      ->check(wholeNumber(1, 4096));
   c->add_flag("--flipy", o.flipY, "turn upside down");
   addWriteOptions(c, o.write);
   c->callback([&o, &run] { run = [&o] { return runConvert(o); }; });
@@ -78,17 +94,21 @@ void addDiff(CLI::App& app, DiffOptions& o, Run& run) {
   c->add_option("a", o.test, "image to judge")->required();
   c->add_option("b", o.reference, "reference")->required();
   c->add_option("--difftol", o.diffTol, "percent by which the means may differ; 0: no pixel may differ")
-      ->check(CLI::NonNegativeNumber);
-  c->add_option("--max-mse", o.maxMse, "limit of the mean squared error")->check(CLI::NonNegativeNumber);
+      ->check(number(NumberRange::atLeast(0)));
+  c->add_option("--max-mse", o.maxMse, "limit of the mean squared error")
+      ->check(number(NumberRange::atLeast(0)));
   c->add_option("--max-relmse", o.maxRelativeMse,
                 "limit of the relative MSE, mean of (a-b)^2 / (b^2 + epsilon)")
-      ->check(CLI::NonNegativeNumber);
-  c->add_option("--max-abs", o.maxAbs, "limit of the largest difference")->check(CLI::NonNegativeNumber);
-  c->add_option("--max-flip", o.maxFlip, "limit of the mean FLIP error")->check(CLI::NonNegativeNumber);
-  c->add_option("--epsilon", o.epsilon, "epsilon of the relative MSE (0.01)")->check(CLI::PositiveNumber);
+      ->check(number(NumberRange::atLeast(0)));
+  c->add_option("--max-abs", o.maxAbs, "limit of the largest difference")
+      ->check(number(NumberRange::atLeast(0)));
+  c->add_option("--max-flip", o.maxFlip, "limit of the mean FLIP error")
+      ->check(number(NumberRange::atLeast(0)));
+  c->add_option("--epsilon", o.epsilon, "epsilon of the relative MSE (0.01)")
+      ->check(number(NumberRange::above(0)));
   c->add_flag("--flip", o.flip, "also compute LDR-FLIP of the values clamped to [0, 1]");
   c->add_option("--ppd", o.pixelsPerDegree, "pixels per degree for FLIP (67.02)")
-      ->check(CLI::Range(1.0, 1000.0));
+      ->check(number(NumberRange::between(1, 1000)));
   c->add_option("--outfile", o.outfile, "write |a - b| here when the images differ");
   c->add_flag("--json", o.json, "print JSON instead of text");
   c->callback([&o, &run] { run = [&o] { return runDiff(o); }; });

@@ -80,6 +80,11 @@ Assembly assembleTiles(const std::vector<NamedImage>& tiles) {
       return other == tile.image.metadata.end() || other->second != entry.second;
     });
   }
+  std::vector<const Image*> images;
+  for (const NamedImage& tile : tiles) images.push_back(&tile.image);
+  for (const char* key : {"command", "version"}) {
+    if (const std::string lines = eachOf(images, key); !lines.empty()) result.image.metadata[key] = lines;
+  }
   result.missing = std::count(covered.begin(), covered.end(), 0);
   if (result.missing > 0) {
     const std::int64_t at = std::find(covered.begin(), covered.end(), 0) - covered.begin();
@@ -99,6 +104,9 @@ int runAssemble(const AssembleOptions& options) {
     tiles.push_back({file, std::move(loaded.image)});
   }
   const Assembly result = assembleTiles(tiles);
+  if (tiles.front().image.metadata.count("sceneHash") > result.image.metadata.count("sceneHash")) {
+    std::cout << "the tiles are renders of different scenes (metadata \"sceneHash\")\n";
+  }
   if (result.overlapping > 0) {
     std::cout << "overlaps: " << result.overlapping << " pixels, " << result.contradicting
               << " of them with different values; the last tile counts\n";

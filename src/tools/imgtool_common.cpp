@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "tools/imgtool_common.h"
 
+#include <algorithm>
 #include <charconv>
 #include <sstream>
 #include <stdexcept>
@@ -25,9 +26,23 @@ LoadedImage loadLinear(const std::filesystem::path& path) {
   const FileBytes file = FileBytes::open(path);
   const std::string name = path.string();
   const ImageFormat format = detectFormat(file.bytes(), name);
-  LoadedImage loaded{decodeImage(format, file.bytes(), name), format};
+  LoadedImage loaded{decodeImage(format, file.bytes(), name), format, storageOf(format, file.bytes(), name)};
   if (isSrgbEncoded(format)) linearise(loaded.image);
   return loaded;
+}
+
+std::string eachOf(const std::vector<const Image*>& images, const std::string& key) {
+  std::vector<std::string> lines;
+  for (const Image* image : images) {
+    const auto found = image->metadata.find(key);
+    std::istringstream in(found == image->metadata.end() ? std::string() : found->second);
+    for (std::string line; std::getline(in, line);) {
+      if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+    }
+  }
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
 }
 
 void requireWritable(const std::filesystem::path& path) {

@@ -3,10 +3,12 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/bounds.h"
 #include "image/codecs.h"
 #include "image/image.h"
+#include "image/storage.h"
 
 // What the commands of imgtool share. Commands print to standard output, return the exit status, and throw
 // SceneError or std::runtime_error for files that cannot be read, written or combined.
@@ -16,10 +18,15 @@ namespace pbrtmedia {
 struct LoadedImage {
   Image image;         ///< linear values
   ImageFormat format;  ///< of the file
+  ImageStorage stored;
 };
 
 /// Reads an image and linearises R, G, B and Y of formats that store sRGB. Throws SceneError.
 LoadedImage loadLinear(const std::filesystem::path& path);
+
+/// The different values that images have under a key, in their order, a line each; those of a merge come
+/// apart again. Empty when none has it.
+std::string eachOf(const std::vector<const Image*>& images, const std::string& key);
 
 /// Throws std::runtime_error for a name that no image can be written under, before any work is done.
 void requireWritable(const std::filesystem::path& path);

@@ -20,6 +20,8 @@ json infoJson(const std::string& file, const LoadedImage& loaded) {
   json out;
   out["file"] = file;
   out["format"] = formatName(loaded.format);
+  out["pixelType"] = loaded.stored.pixelType;
+  out["compression"] = loaded.stored.compression;
   out["linearised"] = isSrgbEncoded(loaded.format);
   out["width"] = image.width();
   out["height"] = image.height();
@@ -39,10 +41,18 @@ json infoJson(const std::string& file, const LoadedImage& loaded) {
   return out;
 }
 
+/// Later lines of a value stand under its first.
+std::string indented(const std::string& value) {
+  std::string text;
+  for (const char c : value) text += c == '\n' ? std::string("\n    ") : std::string(1, c);
+  return text;
+}
+
 void printInfo(const std::string& file, const LoadedImage& loaded) {
   const Image& image = loaded.image;
   std::cout << file << ": " << formatName(loaded.format) << ", " << image.width() << " x " << image.height()
-            << " pixels" << (isSrgbEncoded(loaded.format) ? ", values linearised from sRGB" : "") << '\n'
+            << " pixels, " << loaded.stored.pixelType << ", compression " << loaded.stored.compression
+            << (isSrgbEncoded(loaded.format) ? ", values linearised from sRGB" : "") << '\n'
             << "  data window     " << toString(image.dataWindow) << '\n'
             << "  display window  " << toString(image.displayWindow) << '\n';
   if (image.hasRgb()) std::cout << "  log-average luminance  " << logAverageLuminance(image) << '\n';
@@ -51,7 +61,7 @@ void printInfo(const std::string& file, const LoadedImage& loaded) {
               << "  max " << s.max << "  mean " << s.mean << "  NaN " << s.nans << "  inf " << s.infinities
               << '\n';
   }
-  for (const auto& [key, value] : image.metadata) std::cout << "  " << key << ": " << value << '\n';
+  for (const auto& [key, value] : image.metadata) std::cout << "  " << key << ": " << indented(value) << '\n';
 }
 
 }  // namespace

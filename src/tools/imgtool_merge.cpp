@@ -62,6 +62,44 @@ std::vector<std::uint64_t> seedsOf(const NamedImage& input) {
   return seeds;
 }
 
+/// "hash name" lines as name -> hash.
+std::map<std::string, std::string> filesOf(const Image& image) {
+  std::map<std::string, std::string> files;
+  std::istringstream in(metadata(image, "sceneFiles").value_or(""));
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t space = line.find(' ');
+    if (space != std::string::npos) files[line.substr(space + 1)] = line.substr(0, space);
+  }
+  return files;
+}
+
+/// What tells two scenes apart, as far as their headers say.
+std::string sceneDifference(const Image& a, const Image& b) {
+  std::vector<std::string> parts;
+  const auto quoted = [](const std::optional<std::string>& text) {
+    return text ? "'" + *text + "'" : std::string("none");
+  };
+  if (metadata(a, "sceneText") != metadata(b, "sceneText")) parts.emplace_back("the text of the scene files");
+  const auto paramsA = metadata(a, "mediumParams"), paramsB = metadata(b, "mediumParams");
+  if (paramsA != paramsB)
+    parts.push_back("--mediumparams (" + quoted(paramsA) + " and " + quoted(paramsB) + ")");
+  std::map<std::string, std::string> others = filesOf(b);
+  for (const auto& [name, hash] : filesOf(a)) {
+    const auto other = others.find(name);
+    if (other == others.end()) {
+      parts.push_back("the file " + name + " (only in the first)");
+    } else {
+      if (other->second != hash) parts.push_back("the content of " + name);
+      others.erase(other);
+    }
+  }
+  for (const auto& [name, hash] : others) parts.push_back("the file " + name + " (only in the second)");
+  if (parts.empty()) return "metadata \"sceneHash\" differs, and nothing else says in what";
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text + (parts.size() == 1 ? " differs" : " differ");
+}
+
 void requireSameScene(const NamedImage& first, const NamedImage& other) {
   const Image &a = first.image, &b = other.image;
   const std::string pair = first.name + " and " + other.name;
@@ -70,7 +108,7 @@ void requireSameScene(const NamedImage& first, const NamedImage& other) {
     fail(pair, "different windows");
   if (a.channels() != b.channels()) fail(pair, "different channels");
   if (required(first, "sceneHash") != required(other, "sceneHash")) {
-    fail(pair, "different scenes (metadata \"sceneHash\")");
+    fail(pair, "different scenes: " + sceneDifference(a, b));
   }
 }
 
@@ -142,7 +180,13 @@ Image mergeRenders(const std::vector<NamedImage>& inputs) {
   Image out = inputs.front().image;
   for (std::size_t i = 0; i < sum.size(); ++i) out.data()[i] = static_cast<float>(sum[i] / totalSamples);
   out.metadata.clear();
-  for (const char* key : {"command", "version", "sceneHash"}) keepCommon(inputs, key, out);
+  for (const char* key : {"sceneHash", "sceneText", "mediumParams", "sceneFiles"})
+    keepCommon(inputs, key, out);
+  std::vector<const Image*> images;
+  for (const NamedImage& input : inputs) images.push_back(&input.image);
+  for (const char* key : {"command", "version"}) {
+    if (const std::string lines = eachOf(images, key); !lines.empty()) out.metadata[key] = lines;
+  }
   sumSeconds(inputs, out);
   out.metadata["samples"] = countText(totalSamples);
   out.metadata["seed"] = seedList;

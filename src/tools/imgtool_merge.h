@@ -15,11 +15,11 @@ struct NamedImage {
 };
 
 /// The average of renders of one scene, weighted by their metadata "samples"; accumulated in double.
-/// "samples" and "seconds" of the result are sums, "seed" lists all seeds, "command" and "version" stay where
-/// all agree. Throws std::runtime_error naming the files for: no input, no or senseless "samples" or "seed",
-/// different size, windows, channels or "sceneHash", a seed that occurs twice, or a value that is not finite.
-/// For a filter wider than a pixel the result is close to one long render, not equal to it: each input is
-/// already divided by its own filter weights.
+/// "samples" and "seconds" of the result are sums, "seed" lists all seeds, "command" and "version" those that
+/// differ, a line each; what tells the scene stays. Throws std::runtime_error naming the files for: no input,
+/// no or senseless "samples" or "seed", different size, windows, channels or "sceneHash", a seed that occurs
+/// twice, or a value that is not finite. For a filter wider than a pixel the result is close to one long
+/// render, not equal to it: each input is already divided by its own filter weights.
 Image mergeRenders(const std::vector<NamedImage>& inputs);
 
 struct MergeOptions {

@@ -21,15 +21,26 @@ namespace {
 
 using Run = std::function<int()>;
 
-void addLabOptions(CLI::App* c, LabOptions& o, const std::string& command) {
-  o.command = command;
-  c->add_option("-o,--outfile", o.outfile, "file to write (standard output)");
+constexpr unsigned kMostThreads = 4096;
+/// Beyond, a row would take weeks; far below what counters hold.
+constexpr unsigned long long kMostTrials = 1'000'000'000'000;
+constexpr unsigned kMostSamples = 1u << 24;
+
+/// Of a command that writes a table.
+void addTableOptions(CLI::App* c, LabOptions& o) {
+  c->add_option("-o,--outfile", o.outfile, "file to write, .csv or .json (standard output)");
   const std::map<std::string, TableFormat> formats{{"csv", TableFormat::Csv}, {"json", TableFormat::Json}};
-  c->add_option("--format", o.format, "csv (default) or json")
+  c->add_option("--format", o.format, "csv or json (as the file's name ends, or csv)")
       ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case))
       ->type_name("NAME");
-  c->add_option("--seed", o.seed, "of all random numbers (1)");
-  c->add_option("--threads", o.threads, "0: one per processor (0); results do not depend on it");
+}
+
+void addLabOptions(CLI::App* c, LabOptions& o, const std::string& command) {
+  o.command = command;
+  c->add_option("--seed", o.seed, "of all random numbers (1)")->check(wholeNumber<std::uint64_t>(0, ~0ull));
+  c->add_option("--nthreads,--threads", o.threads, "0: one per processor (0); results do not depend on it")
+      ->check(wholeNumber(0u, kMostThreads))
+      ->type_name("N");
   c->add_flag("--quiet", o.quiet, "show no progress");
   c->add_flag("--no-seconds", o.omitSeconds, "leave out measured times, all that differs from run to run");
 }
@@ -45,22 +56,30 @@ void addSelection(CLI::App* c, EstimatorSelection& o) {
 
 void addProblem(CLI::App* c, ProblemOptions& o, bool hasDepths) {
   if (hasDepths) {
-    c->add_option("--depth", o.depths, "optical depths (1)")->delimiter(',')->take_all();
+    c->add_option("--depth", o.depths, "optical depths (1)")
+        ->delimiter(',')
+        ->take_all()
+        ->check(number(NumberRange::atLeast(0)));
     CLI::Option* control =
         c->add_option("--control", o.controls, "upper control / largest density (1); below 1 it is no bound")
             ->delimiter(',')
-            ->take_all();
+            ->take_all()
+            ->check(number(NumberRange::above(0)));
     c->add_option("--efficiency", o.efficiencies, "instead of --control: depth / depth of the control")
         ->delimiter(',')
         ->take_all()
+        ->check(number(NumberRange::above(0)))
         ->excludes(control);
   }
   c->add_option("--lower", o.lowers, "lower control / smallest density (0: none)")
       ->delimiter(',')
-      ->take_all();
-  c->add_option("--supervoxels", o.superVoxels, "intervals with controls of their own (1)");
-  c->add_option("--length", o.length, "of the segment (the width of the function, mostly 1)");
-  c->add_option("--offset", o.offset, "of the segment's start (0)");
+      ->take_all()
+      ->check(number(NumberRange::atLeast(0)));
+  c->add_option("--supervoxels", o.superVoxels, "intervals with controls of their own (1)")
+      ->check(wholeNumber(1u, ProblemOptions::kMostSuperVoxels));
+  c->add_option("--length", o.length, "of the segment (the width of the function, mostly 1)")
+      ->check(number(NumberRange::above(0)));
+  c->add_option("--offset", o.offset, "of the segment's start (0)")->check(number(NumberRange::any()));
   c->add_flag("--paper-depth", o.isPaperDepth,
               "a depth is the papers' factor of the formula, not the true depth; they differ for cosine");
   c->add_flag("--no-means", o.noMeans, "intervals do not know their mean density");
@@ -95,12 +114,14 @@ void addEstimate(CLI::App& app, EstimateOptions& o, const std::string& command, 
       "--samples-per-estimate estimates; all columns speak of one trial. non_finite counts trials that were\n"
       "NaN or infinite; mean and variance leave them out.");
   addLabOptions(c, o.lab, command);
+  addTableOptions(c, o.lab);
   addSelection(c, o.selection);
   c->add_option("--extinction", o.functions, "names of functions, or all (all)")->delimiter(',')->take_all();
   addProblem(c, o.problem, true);
   addPattern(c, o.plan.pattern);
-  c->add_option("--samples-per-estimate", o.plan.samples, "estimates averaged by a trial (1)");
-  c->add_option("--trials", o.trials, "of each row (10000)");
+  c->add_option("--samples-per-estimate", o.plan.samples, "estimates averaged by a trial (1)")
+      ->check(wholeNumber(1u, kMostSamples));
+  c->add_option("--trials", o.trials, "of each row (10000)")->check(wholeNumber(2ull, kMostTrials));
   c->callback([c, &o, &run] {
     o.showLaw = c->count("--law") > 0;
     o.showPattern = c->count("--pattern") > 0;
@@ -112,27 +133,33 @@ void addEstimate(CLI::App& app, EstimateOptions& o, const std::string& command, 
 void addHeatmap(CLI::App& app, HeatmapOptions& o, const std::string& command, Run& run) {
   CLI::App* c = app.add_subcommand("heatmap", "Map variance and cost over transmittance and control");
   c->footer(
-      "Transmittance runs from 0.99 at the left to 0.01 at the right, depth / depth of the control from "
-      "0.01\n"
-      "at the bottom to the function's largest at the top. With --outfile P writes P.csv (or P.json), "
+      "Transmittance, under the law, runs from 0.99 at the left to 0.01 at the right, depth / depth of the\n"
+      "control from 0.01 at the bottom to the function's largest at the top. With --outfile P writes P.csv "
+      "(or P.json), "
       "P.exr,\n"
       "P-variance.png, P-variance-lookups.png and P-variance-seconds.png. The best is chosen among the "
       "unbiased\n"
       "estimators, which must serve one law; all: those of the exponential one, unless --law tells another.");
   addLabOptions(c, o.lab, command);
+  addTableOptions(c, o.lab);
   addSelection(c, o.selection);
   c->add_option("--extinction", o.function, "function (cosine)");
   addProblem(c, o.problem, false);
   addPattern(c, o.plan.pattern);
-  c->add_option("--samples-per-estimate", o.plan.samples, "estimates averaged by a trial (1)");
-  c->add_option("--width", o.width, "pixels (64)")->check(CLI::Range(1, 4096));
-  c->add_option("--height", o.height, "pixels (64)")->check(CLI::Range(1, 4096));
+  c->add_option("--samples-per-estimate", o.plan.samples, "estimates averaged by a trial (1)")
+      ->check(wholeNumber(1u, kMostSamples));
+  c->add_option("--width", o.width, "pixels (64)")->check(wholeNumber(1, 4096));
+  c->add_option("--height", o.height, "pixels (64)")->check(wholeNumber(1, 4096));
   c->add_option("--top-efficiency", o.topEfficiency,
                 "depth / depth of the control at the top (the function's)")
-      ->check(CLI::PositiveNumber);
-  CLI::Option* lookups = c->add_option(
-      "--lookups", o.lookups, "budget of a pixel and estimator (16384), or four times as many trials");
-  c->add_option("--trials", o.trials, "of a pixel and estimator, instead of a budget")->excludes(lookups);
+      ->check(number(NumberRange::above(0)));
+  CLI::Option* lookups =
+      c->add_option("--lookups", o.lookups,
+                    "budget of a pixel and estimator (16384), or four times as many trials")
+          ->check(wholeNumber(1ull, kMostTrials));
+  c->add_option("--trials", o.trials, "of a pixel and estimator, instead of a budget")
+      ->check(wholeNumber(2ull, kMostTrials))
+      ->excludes(lookups);
   c->callback([&o, &run] { run = [&o] { return runHeatmap(o); }; });
 }
 
@@ -141,25 +168,28 @@ void addConverge(CLI::App& app, ConvergeOptions& o, const std::string& command, 
   c->footer(
       "Slopes belong to straight lines through log(rmse), with standard errors from those of the points.");
   addLabOptions(c, o.lab, command);
+  addTableOptions(c, o.lab);
   addSelection(c, o.selection);
   c->add_option("--extinction", o.functions, "names of functions, or all (cosine)")
       ->delimiter(',')
       ->take_all();
   addProblem(c, o.problem, true);
   addPattern(c, o.pattern);
-  c->add_option("--doublings", o.doublings, "the largest mean has 2^doublings estimates (10)");
-  c->add_option("--trials", o.trials, "means of each size (256)");
+  c->add_option("--doublings", o.doublings, "the largest mean has 2^doublings estimates (10)")
+      ->check(wholeNumber(1u, 24u));
+  c->add_option("--trials", o.trials, "means of each size (256)")->check(wholeNumber(4ull, kMostTrials));
   c->callback([&o, &run] { run = [&o] { return runConverge(o); }; });
 }
 
 void addProfile(CLI::App& app, ProfileOptions& o, const std::string& command, Run& run) {
   CLI::App* c = app.add_subcommand("profile", "Show a line: extinction, controls, points of one estimate");
   addLabOptions(c, o.lab, command);
+  addTableOptions(c, o.lab);
   addSelection(c, o.selection);
   c->add_option("--extinction", o.function, "function (cosine)");
   addProblem(c, o.problem, true);
-  c->add_option("--points", o.points, "where the field is shown (256)");
-  c->add_option("--picture", o.picture, "image file to plot into");
+  c->add_option("--points", o.points, "where the field is shown (256)")->check(wholeNumber(2u, 1000000u));
+  c->add_option("--picture", o.picture, "image file to plot into: .png, .exr, .pfm or .tga");
   c->callback([&o, &run] { run = [&o] { return runProfile(o); }; });
 }
 
@@ -173,6 +203,7 @@ void addStress(CLI::App& app, StressOptions& o, const std::string& command, Run&
       "of\n"
       "a cell. The whole table: medialab stress -o stress.csv, some five minutes on two processors.");
   addLabOptions(c, o.lab, command);
+  addTableOptions(c, o.lab);
   addSelection(c, o.selection);
   c->add_option("--case", o.cases, "names of cases, or beginnings of names (all)")
       ->delimiter(',')
@@ -188,13 +219,15 @@ void addPrecision(CLI::App& app, LabOptions& o, const std::string& command, Run&
       "on\n"
       "the same random numbers.");
   addLabOptions(c, o, command);
+  addTableOptions(c, o);
   c->callback([&o, &run] { run = [&o] { return runPrecision(o); }; });
 }
 
 void addDocs(CLI::App& app, DocsOptions& o, const std::string& command, Run& run) {
   CLI::App* c = app.add_subcommand("docs", "Write the page docs/estimators.md, with measured tables");
   addLabOptions(c, o.lab, command);
-  c->add_option("--trials", o.trials, "of each measured cell (20000)");
+  c->add_option("-o,--outfile", o.lab.outfile, "file to write, .md (standard output)");
+  c->add_option("--trials", o.trials, "of each measured cell (20000)")->check(wholeNumber(2ull, kMostTrials));
   c->callback([&o, &run] { run = [&o] { return runDocs(o); }; });
 }
 

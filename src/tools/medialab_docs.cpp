@@ -261,6 +261,10 @@ std::string docsPage(const DocsOptions& o, const StopSignal& stop) {
 }
 
 int runDocs(const DocsOptions& options) {
+  const std::string& name = options.lab.outfile;
+  if (!name.empty() && !name.ends_with(".md")) {
+    throw std::runtime_error(name + ": unknown extension; the page is Markdown: .md");
+  }
   const ThreadLimit limit(options.lab.threads);
   const StopSignal stop;
   const std::string page = docsPage(options, stop);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "tools/medialab_estimate.h"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -44,13 +45,17 @@ std::vector<LabTable::Cell> rowOf(const EstimateOptions& o, const LabEstimator& 
 
 }  // namespace
 
-LabTable estimateTable(const EstimateOptions& o, const StopSignal& stop) {
+LabTable estimateTable(EstimateOptions o, const StopSignal& stop) {
   o.problem.check();
   if (o.trials < 2) throw std::runtime_error("--trials: expected at least 2, for a variance");
   if (o.plan.samples < 1) throw std::runtime_error("--samples-per-estimate: expected at least 1");
-  LabTable table(o.lab.command, columnsOf(o));
   std::vector<LabTable::Skipped> skipped;
   const std::vector<LabEstimator> estimators = o.selection.select(skipped);
+  // Where the exact values are not all those of the exponential law, the rows say whose they are.
+  o.showLaw = o.showLaw || std::any_of(estimators.begin(), estimators.end(), [](const LabEstimator& one) {
+                return !std::holds_alternative<ExponentialLaw>(one.law());
+              });
+  LabTable table(o.lab.command, columnsOf(o));
   for (const auto& s : skipped) table.skip(s.what, s.reason);
   const std::vector<CanonicalFunction> functions = selectFunctions(o.functions);
   std::size_t total = 0, done = 0;
@@ -85,6 +90,7 @@ LabTable estimateTable(const EstimateOptions& o, const StopSignal& stop) {
 }
 
 int runEstimate(const EstimateOptions& options) {
+  tableFormat(options.lab);
   const ThreadLimit limit(options.lab.threads);
   const StopSignal stop;
   const LabTable table = estimateTable(options, stop);

@@ -17,13 +17,14 @@ struct EstimateOptions {
   std::vector<std::string> functions{"all"};
   ProblemOptions problem;
   TrialPlan plan;
-  bool showLaw = false, showPattern = false, showLower = false;  ///< columns of what was chosen
+  /// Columns of what was chosen; the law also where one is not exponential.
+  bool showLaw = false, showPattern = false, showLower = false;
   std::uint64_t trials = 10000;
 };
 
 /// Trials of every estimator on every problem: a row each with mean, variance, cost and their product, which
 /// is the inverse of efficiency. Columns speak of one trial, the mean of `plan.samples` estimates.
-LabTable estimateTable(const EstimateOptions& options, const StopSignal& stop);
+LabTable estimateTable(EstimateOptions options, const StopSignal& stop);
 
 /// `medialab estimate`.
 int runEstimate(const EstimateOptions& options);

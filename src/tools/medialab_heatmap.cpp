@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 
 #include "base/parallel.h"
@@ -17,12 +18,11 @@ using Measure = Heatmap::Measure;
 /// Trials per look-up of the budget at most, for estimates that look nowhere.
 constexpr std::uint64_t kTrialsPerLookup = 4;
 constexpr double kRounding = 1e-9;
-constexpr double kMeanRounding = 1e-5;  ///< float densities, times optical depths up to ten
 
 Heatmap::Pixel measurePixel(const HeatmapOptions& o, const CanonicalFunction& function,
                             const LabEstimator& estimator, double transmittance, double efficiency) {
   ProblemOptions at = o.problem;
-  at.depths = {-std::log(transmittance)};
+  at.depths = {depthReachedOf(estimator.law(), transmittance)};
   at.efficiencies = {efficiency};
   const ProblemChoice choice = problemChoices(at, function).front();
   const LabProblem problem = makeProblem(at, function, choice);
@@ -108,6 +108,13 @@ void noteShares(LabTable& table, const Heatmap& map) {
   }
 }
 
+/// Name and parameters: "pinknoise correlation=0.5".
+std::string describeLaw(const AnyLaw& law) {
+  std::string text(nameOf(law));
+  for (const ParameterDescription& p : parametersOf(law)) text += ' ' + p.name + '=' + p.value;
+  return text;
+}
+
 /// The estimators of a map, all under one law: a best one among values of different laws would mean nothing.
 /// "all" stands for those of the exponential law unless another is named.
 std::vector<LabEstimator> estimatorsOf(const HeatmapOptions& o, std::vector<LabTable::Skipped>& skipped) {
@@ -115,7 +122,7 @@ std::vector<LabEstimator> estimatorsOf(const HeatmapOptions& o, std::vector<LabT
   if (selection.isAll() && selection.law.empty()) selection.law = "exponential";
   std::vector<LabEstimator> estimators = selection.select(skipped);
   for (const LabEstimator& one : estimators) {
-    const std::string_view first = nameOf(estimators.front().law()), law = nameOf(one.law());
+    const std::string first = describeLaw(estimators.front().law()), law = describeLaw(one.law());
     if (law == first) continue;
     std::string text = "a map compares estimators of one law: " + estimators.front().label() + " serves ";
     text += first;
@@ -158,7 +165,7 @@ std::size_t Heatmap::best(std::size_t pixel, Measure measure) const {
     if (!layers[l].isUnbiased) continue;
     const double rounding = kRounding * p.exact;
     if (p.variance <= rounding * rounding) {
-      if (std::abs(p.mean - p.exact) > kMeanRounding * p.exact) continue;
+      if (std::abs(p.mean - p.exact) > kRounding * p.exact) continue;
       value = 0;
     }
     if (best != kNoBest && (value > least || (value == least && p.lookups >= leastLookups))) continue;
@@ -176,8 +183,18 @@ Heatmap measureHeatmap(const HeatmapOptions& o, std::vector<LabTable::Skipped>& 
   if (o.trials == 0 && o.lookups < 1) throw std::runtime_error("--lookups: expected at least 1");
   if (o.trials == 1) throw std::runtime_error("--trials: expected at least 2, for a variance");
   const CanonicalFunction function = selectFunctions({o.function}).front();
-  Heatmap map{o.width, o.height, o.topEfficiency > 0 ? o.topEfficiency : function.about().topEfficiency, {}};
+  Heatmap map{
+      o.width, o.height, o.topEfficiency > 0 ? o.topEfficiency : function.about().topEfficiency, {}, {}};
   const std::vector<LabEstimator> estimators = estimatorsOf(o, skipped);
+  if (!estimators.empty()) {
+    const AnyLaw law = estimators.front().law();
+    map.law = describeLaw(law);
+    const double least = map.transmittance(o.width - 1);
+    if (!std::isfinite(depthReachedOf(law, least))) {
+      throw std::runtime_error("the law " + map.law + " never falls to the transmittance " +
+                               formatNumber(least));
+    }
+  }
   LabProgress progress("medialab heatmap", estimators.size() * static_cast<std::size_t>(o.height),
                        o.lab.quiet);
   for (const LabEstimator& estimator : estimators) {
@@ -206,6 +223,14 @@ Heatmap measureHeatmap(const HeatmapOptions& o, std::vector<LabTable::Skipped>& 
 }
 
 int runHeatmap(const HeatmapOptions& o) {
+  LabOptions lab = o.lab;
+  std::string prefix = o.lab.outfile;
+  if (const std::filesystem::path name = prefix; name.extension() == ".csv" || name.extension() == ".json") {
+    lab.format = tableFormat(o.lab);
+    prefix = std::filesystem::path(name).replace_extension().string();
+  }
+  lab.format = lab.format.value_or(TableFormat::Csv);
+  if (!prefix.empty()) lab.outfile = prefix + (lab.format == TableFormat::Csv ? ".csv" : ".json");
   const ThreadLimit limit(o.lab.threads);
   const StopSignal stop;
   std::vector<LabTable::Skipped> skipped;
@@ -213,18 +238,17 @@ int runHeatmap(const HeatmapOptions& o) {
   LabTable table = tableOf(o, map);
   for (const auto& s : skipped) table.skip(s.what, s.reason);
   noteShares(table, map);
+  table.note("law of the transmittance: " + map.law);
   if (stop) table.markStopped();
   if (map.layers.empty()) throw std::runtime_error("nothing could be run");
-  LabOptions lab = o.lab;
-  if (!o.lab.outfile.empty()) {
-    lab.outfile += o.lab.format == TableFormat::Csv ? ".csv" : ".json";
-    writeImage(o.lab.outfile + ".exr", heatmapChannels(map, o.lab.command, !o.lab.omitSeconds),
+  if (!prefix.empty()) {
+    writeImage(prefix + ".exr", heatmapChannels(map, o.lab.command, !o.lab.omitSeconds),
                {.pixelType = PixelType::Float});
     for (const auto& [measure, suffix] : {std::pair{Measure::Variance, "-variance.png"},
                                           {Measure::VarianceLookups, "-variance-lookups.png"},
                                           {Measure::VarianceSeconds, "-variance-seconds.png"}}) {
       if (measure == Measure::VarianceSeconds && o.lab.omitSeconds) continue;
-      writeImage(o.lab.outfile + suffix, heatmapPicture(map, measure, o.function));
+      writeImage(prefix + suffix, heatmapPicture(map, measure, o.function));
     }
   }
   writeTable(table, lab);

@@ -12,7 +12,9 @@
 namespace pbrtmedia {
 
 struct HeatmapOptions {
-  LabOptions lab;  ///< outfile: what the names of all files begin with; empty: the table alone
+  /// outfile: what the names of all files begin with, .csv or .json behind it being the table's format;
+  /// empty: the table alone
+  LabOptions lab;
   EstimatorSelection selection;
   std::string function = "cosine";
   ProblemOptions problem;  ///< depths, controls and efficiencies are those of the map
@@ -24,7 +26,8 @@ struct HeatmapOptions {
 };
 
 /// A map over transmittance and efficiency of the control. Georgiev et al. 2019, figure 7: transmittance from
-/// 0.99 at the left to 0.01 at the right, depth / depth of the control from 0.01 at the bottom upwards.
+/// 0.99 at the left to 0.01 at the right, depth / depth of the control from 0.01 at the bottom upwards. The
+/// transmittance is that of the law of the estimators, at the depth as given (ProblemOptions::isPaperDepth).
 struct Heatmap {
   enum class Measure { Variance, VarianceLookups, VarianceSeconds };
   struct Pixel {
@@ -48,6 +51,7 @@ struct Heatmap {
   int width = 0, height = 0;
   double topEfficiency = 0;
   std::vector<Layer> layers;
+  std::string law = {};  ///< of all layers, with its parameters
 
   double transmittance(int x) const;
   double efficiency(int y) const;  ///< y = 0: the top

@@ -166,7 +166,7 @@ class Picture {
     canvas_.fill(x0, y0 + height + 14, kBar, 10, {0, 0, 0});
     canvas_.text(x0 + kBar + 8, y0 + height + 15, "0", kInk);
     canvas_.text(x0, y0 + height + 32, "eff = depth / depth of control", kInk);
-    canvas_.text(x0, y0 + height + 44, "T = transmittance", kInk);
+    canvas_.text(x0, y0 + height + 44, "T = transmittance, " + map_.law, kInk);
   }
   /// The estimators that are best somewhere, most often first.
   void legend() {
@@ -214,6 +214,7 @@ Image heatmapChannels(const Heatmap& map, const std::string& command, bool hasSe
   Image image(map.width, map.height, channels);
   image.metadata["estimators"] = names;
   image.metadata["command"] = command;
+  image.metadata["law"] = map.law;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = map.index(x, y);

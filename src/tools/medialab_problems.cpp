@@ -39,8 +39,8 @@ void ProblemOptions::check() const {
   }
   require(length >= 0 && std::isfinite(length), "--length: expected a finite number above 0", length);
   require(std::isfinite(offset), "--offset: expected a finite number", offset);
-  require(superVoxels >= 1 && superVoxels <= 1000000, "--supervoxels: expected a number from 1 to 1000000",
-          superVoxels);
+  require(superVoxels >= 1 && superVoxels <= kMostSuperVoxels,
+          "--supervoxels: expected a number from 1 to 1000000", superVoxels);
 }
 
 double tightControlDepth(const ProblemOptions& options, const CanonicalFunction& function, double depth) {

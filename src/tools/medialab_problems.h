@@ -12,13 +12,15 @@ namespace pbrtmedia {
 
 /// The lines that a command asks for.
 struct ProblemOptions {
+  static constexpr unsigned kMostSuperVoxels = 1000000;
+
   std::vector<double> depths{1};    ///< optical depths, >= 0
   std::vector<double> controls{1};  ///< upper bound / largest density, > 0
   std::vector<double>
       efficiencies{};             ///< in place of controls: depth as given / optical depth of the control
   std::vector<double> lowers{0};  ///< lower bound / smallest density, >= 0
-  unsigned superVoxels = 1;
-  double length = 0;  ///< of the segment; 0: the width of the function's domain
+  unsigned superVoxels = 1;       ///< at most kMostSuperVoxels
+  double length = 0;              ///< of the segment; 0: the width of the function's domain
   double offset = 0;
   /// Depths are the numbers that the papers put before their formulas, although the cosine of Georgiev et al.
   /// integrates to 1.010572 times that. Otherwise a depth is the true optical depth.

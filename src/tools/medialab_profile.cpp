@@ -92,7 +92,7 @@ Image plot(const Profile& profile) {
   const CanonicalLine& line = profile.problem.line;
   const int rows = static_cast<int>(profile.labels.size());
   LabCanvas canvas(kLeft + kWidth + 220, kTop + kHeight + 40 + rows * kTickRow);
-  double top = static_cast<double>(0);
+  double top = 0;
   for (const auto& i : line.intervals()) top = std::max(top, i.bound.upper);
   const double width = line.length();
   top = std::max(top, line.function().range().max * line.setup().scale);
@@ -143,6 +143,10 @@ Image plot(const Profile& profile) {
 }  // namespace
 
 int runProfile(const ProfileOptions& o) {
+  tableFormat(o.lab);
+  if (!o.picture.empty() && !isWritableImageName(o.picture)) {
+    throw std::runtime_error(o.picture + ": unknown image extension; known: .exr, .pfm, .png, .tga");
+  }
   const CanonicalFunction function = selectFunctions({o.function}).front();
   LabTable table = emptyTable(o);
   const Profile profile = measure(o, function, table);

@@ -44,14 +44,14 @@ std::string commandText(int argc, const char* const* argv) {
   std::string text = "medialab";
   for (int i = 1; i < argc; ++i) {
     std::string_view word = argv[i];
-    if (word == "--quiet" || word.substr(0, 10) == "--threads=") continue;
-    if (word == "--threads") {
-      ++i;
+    const std::size_t equals = word.find('=');
+    const std::string_view option = word.substr(0, equals);
+    if (word == "--quiet") continue;
+    if (option == "--nthreads" || option == "--threads") {
+      if (equals == std::string_view::npos) ++i;
       continue;
     }
     text += ' ';
-    const std::size_t equals = word.find('=');
-    const std::string_view option = word.substr(0, equals);
     if (std::find(kFiles.begin(), kFiles.end(), option) == kFiles.end()) {
       text += shellWord(word);
     } else if (equals != std::string_view::npos) {
@@ -109,7 +109,21 @@ void writeOutput(const std::string& outfile, const std::function<void(std::ostre
 }
 
 void writeTable(const LabTable& table, const LabOptions& options) {
-  writeOutput(options.outfile, [&](std::ostream& out) { table.write(out, options.format); });
+  writeOutput(options.outfile, [&](std::ostream& out) { table.write(out, tableFormat(options)); });
+}
+
+TableFormat tableFormat(const LabOptions& options) {
+  const std::string extension = std::filesystem::path(options.outfile).extension().string();
+  const bool isCsv = extension == ".csv", isJson = extension == ".json";
+  if (options.format) {
+    const bool isOther = *options.format == TableFormat::Csv ? isJson : isCsv;
+    if (!isOther) return *options.format;
+    throw std::runtime_error(options.outfile + ": --format asks for another format than the name ends in");
+  }
+  if (isJson) return TableFormat::Json;
+  if (isCsv || options.outfile.empty()) return TableFormat::Csv;
+  throw std::runtime_error(options.outfile +
+                           ": unknown extension; known: .csv, .json (or name the --format)");
 }
 
 }  // namespace pbrtmedia

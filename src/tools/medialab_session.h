@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 
 #include "base/stop_signal.h"
@@ -16,9 +17,9 @@ namespace pbrtmedia {
 
 /// What the commands of the lab share.
 struct LabOptions {
-  std::string command;  ///< reproduces the output: see commandText
-  std::string outfile;  ///< empty: standard output
-  TableFormat format = TableFormat::Csv;
+  std::string command;                     ///< reproduces the output: see commandText
+  std::string outfile;                     ///< empty: standard output
+  std::optional<TableFormat> format = {};  ///< nothing: as the name of the file ends, CSV without one
   std::uint64_t seed = 1;
   unsigned threads = 0;      ///< 0: one per processor
   bool quiet = false;        ///< no progress
@@ -26,7 +27,7 @@ struct LabOptions {
 };
 
 /// The command line as it would be typed in the folder of the output, without what cannot change results:
-/// folders of output files, --threads and --quiet.
+/// folders of output files, --nthreads and --quiet.
 std::string commandText(int argc, const char* const* argv);
 
 /// Progress on standard error: redrawn in place on a terminal, else a line every five seconds. Not
@@ -50,5 +51,8 @@ class LabProgress {
 /// Writes a file atomically, or standard output if the name is empty.
 void writeOutput(const std::string& outfile, const std::function<void(std::ostream&)>& write);
 void writeTable(const LabTable& table, const LabOptions& options);
+/// The format of the options' file: what was asked for, or what its name says. Throws std::runtime_error when
+/// the name says neither .csv nor .json, or the other one. To be asked before anything is measured.
+TableFormat tableFormat(const LabOptions& options);
 
 }  // namespace pbrtmedia

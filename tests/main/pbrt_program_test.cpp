@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "image/image.h"
 #include "support/process.h"
@@ -53,7 +55,13 @@ TEST_F(Pbrt, WritesItsProvenanceIntoTheImage) {
   EXPECT_EQ(image.metadata.at("samples"), "4");
   EXPECT_FALSE(image.metadata.at("sceneHash").empty());
   EXPECT_FALSE(image.metadata.at("seconds").empty());
-  EXPECT_FALSE(image.metadata.at("version").empty());
+  const std::string version = image.metadata.at("version");
+  EXPECT_EQ(pbrt("--version").output, version + '\n') << "one text everywhere";
+  EXPECT_EQ(pbrt("-version").output, version + '\n');
+  EXPECT_EQ(version.find("pbrt-media "), 0u) << version;
+  EXPECT_NE(version.find(", commit "), std::string::npos) << version;
+  ASSERT_EQ(pbrt("--stats s.json a.pbrt").status, 0);
+  EXPECT_EQ(nlohmann::json::parse(folder_.read("s.json"))["version"], version);
 }
 
 TEST_F(Pbrt, HashesTheSceneWithItsIncludes) {
@@ -69,6 +77,68 @@ TEST_F(Pbrt, HashesTheSceneWithItsIncludes) {
   const std::string one = hashOf("LightSource \"infinite\"\n");
   EXPECT_EQ(one, hashOf("LightSource \"infinite\"\n"));
   EXPECT_NE(one, hashOf("LightSource \"infinite\" \"rgb L\" [ 2 2 2 ]\n"));
+}
+
+/// A scene with everything that a file can decide: a volume, a mesh, an image, a spectrum.
+class SceneHash : public Pbrt {
+ protected:
+  static constexpr const char* kTriangle =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 9\n1 0 9\n0 1 9\n3 0 1 2\n";
+
+  void SetUp() override {
+    writeVolume(1);
+    writeImage(folder_.path() / "map.pfm", Image(2, 2));
+    folder_.write("mesh.ply", kTriangle);
+    folder_.write("water.spd", "400 1\n700 2\n");
+    folder_.write(
+        "a.pbrt",
+        "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" "
+        "\"h.exr\"\nSampler \"random\" \"integer pixelsamples\" 1\nIntegrator \"volpath\"\nWorldBegin\n"
+        "MakeNamedMedium \"fog\" \"string type\" \"heterogeneous\" \"integer nx\" 2 \"integer ny\" 2 "
+        "\"integer nz\" 2 \"string filename\" \"fog.raw\" \"spectrum sigma_a\" \"water.spd\"\n"
+        "LightSource \"infinite\" \"string mapname\" \"map.pfm\"\n"
+        "Shape \"plymesh\" \"string filename\" \"mesh.ply\"\n"
+        "AttributeBegin\nMediumInterface \"fog\" \"\"\nMaterial \"none\"\nShape \"sphere\"\nAttributeEnd\n"
+        "WorldEnd\n");
+  }
+  void writeVolume(float last) const {
+    const float density[8] = {1, 1, 1, 1, 1, 1, 1, last};
+    std::ofstream out(folder_.path() / "fog.raw", std::ios::binary);
+    out.write(reinterpret_cast<const char*>(density), sizeof density);
+  }
+  std::string hash(const std::string& options = "") const {
+    const ProcessResult r = pbrt("--quiet " + options + " a.pbrt");
+    EXPECT_EQ(r.status, 0) << r.output;
+    return readImage(folder_.path() / "h.exr").metadata.at("sceneHash");
+  }
+};
+
+TEST_F(SceneHash, CoversMediumParametersOfTheCommandLine) {
+  const std::string plain = hash();
+  EXPECT_EQ(hash("--seed 3 --spp 2 --nthreads 1"), plain) << "what merging is for";
+  const std::string other = hash("--mediumparams '\"float g\" 0.5'");
+  EXPECT_NE(other, plain);
+  EXPECT_NE(hash("--mediumparams '\"float g\" 0.6'"), other);
+  EXPECT_EQ(hash("--mediumparams '\"float g\" 0.5'"), other);
+}
+
+TEST_F(SceneHash, CoversTheContentOfEveryFile) {
+  std::set<std::string> hashes{hash()};
+  writeVolume(2);
+  EXPECT_TRUE(hashes.insert(hash()).second) << "a volume";
+  Image map(2, 2);
+  map.setRgb(1, 1, Rgb(1));
+  writeImage(folder_.path() / "map.pfm", map);
+  EXPECT_TRUE(hashes.insert(hash()).second) << "an image";
+  std::string mesh = kTriangle;
+  mesh.replace(mesh.find("0 1 9"), 5, "0 2 9");
+  folder_.write("mesh.ply", mesh);
+  EXPECT_TRUE(hashes.insert(hash()).second) << "a mesh";
+  folder_.write("water.spd", "400 1\n700 3\n");
+  EXPECT_TRUE(hashes.insert(hash()).second) << "a spectrum";
+  writeVolume(2);
+  EXPECT_FALSE(hashes.insert(hash()).second) << "the same bytes written again";
 }
 
 TEST_F(Pbrt, TakesOptionsInEverySpelling) {
@@ -131,6 +201,13 @@ TEST_F(Pbrt, RejectsValuesThatMeanNothing) {
     const ProcessResult r = pbrt(std::string(options) + " a.pbrt");
     EXPECT_EQ(r.status, 1) << options << '\n' << r.output;
     EXPECT_NE(r.output.find("error"), std::string::npos) << options << '\n' << r.output;
+  }
+  for (const char* options : {"--time -1", "--time 0", "--spp 99999999999999999999", "--seed -1",
+                              "--nthreads 5000", "--tile-size 0", "--minloglevel 9", "--v x"}) {
+    const ProcessResult r = pbrt(std::string(options) + " a.pbrt");
+    EXPECT_EQ(r.output.find("pbrt: error: --"), 0u) << r.output;
+    EXPECT_NE(r.output.find(", expected a "), std::string::npos) << r.output;
+    EXPECT_LT(r.output.find('\n'), 120u) << "a short range: " << r.output;
   }
   EXPECT_EQ(folder_.fileCount(), 1u) << "nothing may be written";
 }

@@ -27,7 +27,8 @@ TEST(AssembleTiles, PutsTilesWhereTheirDataWindowsSay) {
   EXPECT_EQ(a.image.displayWindow, kDisplay);
   EXPECT_EQ(a.missing, 0);
   EXPECT_EQ(a.overlapping, 0);
-  EXPECT_EQ(a.image.metadata, (std::map<std::string, std::string>{{"sceneHash", "abc"}}));
+  EXPECT_EQ(a.image.metadata,
+            (std::map<std::string, std::string>{{"sceneHash", "abc"}, {"command", "right\nleft"}}));
 }
 
 TEST(AssembleTiles, CountsGapsAndSaysWhereTheFirstIs) {

@@ -55,7 +55,22 @@ TEST_F(Imgtool, HelpAndMistakesHaveTheRightStatus) {
     expectIn(help, "Usage: imgtool " + std::string(command));
   }
   EXPECT_EQ(run("").status, 1);
-  EXPECT_EQ(run("frobnicate a b").status, 1);
+  const ProcessResult unknown = run("convrt a b");
+  EXPECT_EQ(unknown.status, 1);
+  expectIn(unknown, "imgtool: error: unknown command \"convrt\"; did you mean \"convert\"? known: ");
+  const ProcessResult version = run("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.output.find("pbrt-media "), 0u) << version.output;
+  expectIn(version, ", commit ");
+  for (const char* option :
+       {"--scale nan", "--exposure x", "--crop 0 1 0 -1", "--repeatpix 0", "--bloomlevel -1",
+        "--bloomlevel 1 --bloomiters 0", "--despike -2", "--tonemap --maxluminance 0"}) {
+    const ProcessResult wrong = run(std::string("convert a.exr b.exr ") + option);
+    EXPECT_EQ(wrong.status, 1) << option;
+    EXPECT_EQ(wrong.output.find("imgtool: error: --"), 0u) << wrong.output;
+    expectIn(wrong, ", expected a ");
+    EXPECT_LT(wrong.output.find('\n'), 120u) << "a short range: " << wrong.output;
+  }
   EXPECT_EQ(run("diff onlyone.exr").status, 1);
   EXPECT_EQ(run("cat --unknown a.exr").status, 1);
 }
@@ -99,6 +114,32 @@ TEST_F(Imgtool, InfoReportsWhatTheFileHolds) {
   EXPECT_EQ(info["channels"][1]["min"], 1 / 16.0);
   EXPECT_EQ(info["channels"][1]["max"], 22 / 16.0);
   EXPECT_TRUE(info.contains("logAverageLuminance"));
+}
+
+TEST_F(Imgtool, InfoSaysHowPixelsAreStored) {
+  Image image = ramp(4, 2);
+  image.metadata = {{"command", "one\ntwo"}};
+  for (const char* type : {"half", "float"}) {
+    for (const auto& [word, compression] : {std::pair{"none", ExrCompression::None},
+                                            {"zip", ExrCompression::Zip},
+                                            {"piz", ExrCompression::Piz}}) {
+      writeImage(folder_.path() / "a.exr", image,
+                 {.pixelType = std::string(type) == "half" ? PixelType::Half : PixelType::Float,
+                  .compression = compression});
+      const ProcessResult text = run("info a.exr");
+      expectIn(text, std::string("4 x 2 pixels, ") + type + ", compression " + word + '\n');
+      expectIn(text, "  command: one\n    two\n");
+      const json info = json::parse(run("info --json a.exr").output).at(0);
+      EXPECT_EQ(info["pixelType"], type);
+      EXPECT_EQ(info["compression"], word);
+    }
+  }
+  for (const auto& [file, stored] : {std::pair{"a.png", "8 bits, compression deflate"},
+                                     {"a.pfm", "float, compression none"},
+                                     {"a.tga", "24 bits, compression none"}}) {
+    write(file, image);
+    expectIn(run(std::string("info ") + file), stored);
+  }
 }
 
 TEST_F(Imgtool, InfoNamesEveryFormat) {

@@ -41,7 +41,16 @@ TEST(Medialab, HelpAndMistakesHaveTheRightStatus) {
     EXPECT_EQ(lab(std::string(command) + " --help").status, 0);
   }
   EXPECT_EQ(lab("").status, 1);
-  EXPECT_EQ(lab("frobnicate").status, 1);
+  const ProcessResult unknown = lab("estimat");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_EQ(
+      unknown.output.find("medialab: error: unknown command \"estimat\"; did you mean \"estimate\"? known: "),
+      0u)
+      << unknown.output;
+  const ProcessResult version = lab("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.output.find("pbrt-media "), 0u) << version.output;
+  expectIn(version, ", commit ");
   EXPECT_EQ(lab("estimate --unknown").status, 1);
 }
 
@@ -69,6 +78,103 @@ TEST(Medialab, ErrorsTellTheNearestNames) {
   fails("estimate --estimator regular --extinction cosine", {"nothing could be run", "cubic"});
   EXPECT_EQ(lab("estimate --trials 1").status, 1);
   EXPECT_EQ(lab("stress --case nosuchcase").status, 1);
+}
+
+TEST(Medialab, NumbersHaveRanges) {
+  for (const char* arguments : {"estimate --trials -5",
+                                "estimate --trials 99999999999999999999",
+                                "estimate --trials 1",
+                                "estimate --trials 1e3",
+                                "estimate --samples-per-estimate 0",
+                                "estimate --seed -1",
+                                "estimate --nthreads -1",
+                                "estimate --threads 99999",
+                                "estimate --depth nan",
+                                "estimate --depth 1,-1",
+                                "estimate --control 0",
+                                "estimate --efficiency inf",
+                                "estimate --lower=-1",
+                                "estimate --supervoxels 0",
+                                "estimate --length 0",
+                                "estimate --offset nan",
+                                "heatmap --width 0",
+                                "heatmap --height 5000",
+                                "heatmap --top-efficiency -1",
+                                "heatmap --lookups 0",
+                                "heatmap --trials 1",
+                                "converge --doublings 25",
+                                "converge --trials 3",
+                                "profile --points 1",
+                                "docs --trials 0",
+                                "stress --seed x"}) {
+    const ProcessResult result = lab(arguments);
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_EQ(result.output.find("medialab: error: --"), 0u) << result.output;
+    expectIn(result, ": found ");
+    expectIn(result, ", expected a ");
+    EXPECT_LT(result.output.find('\n'), 120u) << "a short range: " << result.output;
+  }
+}
+
+TEST(Medialab, TheNameOfTheFileSaysTheFormat) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path().string();
+  const std::string command = "estimate --estimator ratio --extinction cosine --trials 10 --quiet ";
+  ASSERT_EQ(lab(command + "-o a.json", path).status, 0);
+  EXPECT_EQ(json::parse(folder.read("a.json"))["rows"].size(), 1u);
+  ASSERT_EQ(lab(command + "-o a.csv", path).status, 0);
+  EXPECT_EQ(folder.read("a.csv").substr(0, 10), "# medialab");
+  ASSERT_EQ(lab(command + "-o a.txt --format json", path).status, 0);
+  EXPECT_EQ(json::parse(folder.read("a.txt"))["rows"].size(), 1u);
+  for (const char* wrong : {"-o b.txt", "-o b", "-o b.json --format csv", "-o b.csv --format json"}) {
+    const ProcessResult result = lab(command + wrong, path);
+    EXPECT_EQ(result.status, 1) << wrong;
+    EXPECT_EQ(result.output.find("medialab: error: b"), 0u) << result.output;
+  }
+  EXPECT_EQ(lab("docs --trials 2 --quiet -o page.csv", path).status, 1);
+  EXPECT_EQ(lab("profile --quiet --estimator ratio --picture plot.jpg", path).status, 1);
+  ASSERT_EQ(
+      lab("heatmap --estimator ratio --width 2 --height 2 --lookups 100 --quiet -o map.json", path).status,
+      0);
+  EXPECT_EQ(json::parse(folder.read("map.json"))["rows"].size(), 4u);
+  EXPECT_TRUE(folder.has("map.exr"));
+  EXPECT_FALSE(folder.has("b.txt") || folder.has("b") || folder.has("b.json") || folder.has("plot.jpg"));
+}
+
+TEST(Medialab, ThreadsHaveOneWord) {
+  const std::string command =
+      "estimate --estimator ratio --extinction cosine --trials 10 --quiet --no-seconds ";
+  const ProcessResult plain = lab(command);
+  for (const char* words : {"--nthreads 2", "--nthreads=2", "--threads 2", "--threads=2"}) {
+    EXPECT_EQ(lab(command + words).output, plain.output) << "nor does the command in the output say it";
+  }
+}
+
+TEST(Medialab, HeatmapsAreLabelledByTheirLaw) {
+  for (const char* law : {"exponential", "pinknoise", "linear", "davis", "mixture"}) {
+    const json document = labJson(std::string("heatmap --estimator ray-marching --law ") + law +
+                                  " --extinction constant --width 7 --height 2 --lookups 200");
+    ASSERT_EQ(document["rows"].size(), 14u) << law;
+    for (const json& row : document["rows"]) {
+      EXPECT_NEAR(row["transmittance"].get<double>(), row["exact"].get<double>(), 1e-12) << law;
+      EXPECT_NEAR(row["mean"].get<double>(), row["exact"].get<double>(), 1e-12)
+          << "exact on a constant: " << law;
+    }
+    EXPECT_NE(document["notes"].dump().find(std::string("law of the transmittance: ") + law),
+              std::string::npos);
+  }
+  const ProcessResult never =
+      lab("heatmap --estimator ray-marching --law mixture --param thin=0 --width 2 --height 2 --quiet");
+  EXPECT_EQ(never.status, 1);
+  expectIn(never, "never falls to the transmittance 0.01");
+}
+
+TEST(Medialab, RowsOfSeveralLawsSayWhose) {
+  const json rows =
+      labJson("estimate --estimator ratio,pink-p-cumulative --extinction cosine --trials 10")["rows"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0]["law"], "exponential");
+  EXPECT_EQ(rows[1]["law"], "pinknoise");
 }
 
 TEST(Medialab, ListsEverythingThereIs) {
