@@ -130,6 +130,11 @@ Bounds3f AnimatedTransform::motionBounds(const Bounds3f& b) const {
   if (!animated_) return start_.bounds(b);
   Bounds3f r;
   if (b.isEmpty()) return r;
+  if (!(startTime_ < endTime_)) {  // a jump: never between the two
+    r = start_.bounds(b);
+    r.expand(end_.bounds(b));
+    return r;
+  }
   float step = 0;  // largest move of a corner between two neighbouring times
   for (int i = 0; i < 8; ++i) {
     Point3f last = start_.point(b.corner(i));

@@ -141,8 +141,8 @@ EmissionPlan readNanoVdbEmission(const MediumInput& input, const std::filesystem
                                  FieldMediumParams& p) {
   ParamReader& in = input.in;
   constexpr ParamKind kKind = ParamKind::String;
-  const std::optional<std::string> temperatures = in.optionalString("temperaturegrid"),
-                                   factors = in.optionalString("Legrid");
+  const std::optional<std::string> temperatures = in.optionalOwnString("temperaturegrid"),
+                                   factors = in.optionalOwnString("Legrid");
   if (!temperatures && !factors) return {};
   const std::string_view name = temperatures ? "temperaturegrid" : "Legrid";
   if (temperatures && factors) {

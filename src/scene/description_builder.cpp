@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kMaxOpenBlocks = 1u << 16;  // nesting of real scenes stays below a hundred
 
+constexpr Matrix4 kNowhere{{{{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}}};
+
 template <class Map>
 std::vector<std::string> keysOf(const Map& map) {
   std::vector<std::string> keys;
@@ -115,15 +117,31 @@ void DescriptionBuilder::applyOption(Statement& s) {
     case Directive::Camera:
       return camera(s);
     default:
-      if (s.numbers[1] < s.numbers[0])
-        throw SceneError(s.at, "TransformTimes: the end lies before the start");
-      scene_.transformStartTime = s.numbers[0];
-      scene_.transformEndTime = s.numbers[1];
+      transformTimes(s);
   }
+}
+
+void DescriptionBuilder::transformTimes(const Statement& s) {
+  const double start = s.numbers[0];
+  double end = s.numbers[1];
+  if (!std::isfinite(start) || !std::isfinite(end))
+    throw SceneError(s.at, "TransformTimes: found a time that is not finite");
+  if (end < start) {
+    diagnostics_.tolerated(
+        s.at,
+        "TransformTimes: the end lies before the start; as in PBRT-v3 everything jumps from "
+        "its start to its end behind the start time");
+    end = start;
+  }
+  scene_.transformStartTime = start;
+  scene_.transformEndTime = end;
 }
 
 void DescriptionBuilder::applyTransform(const Statement& s) {
   const auto& n = s.numbers;
+  const auto given = n.begin() + s.info->numbers;
+  if (!std::all_of(n.begin(), given, [](double x) { return std::isfinite(x); }))
+    return transformBy(s, Transform(kNowhere));
   switch (s.info->id) {
     case Directive::Identity: {
       TransformPair next = *state_.ctm;
@@ -137,16 +155,13 @@ void DescriptionBuilder::applyTransform(const Statement& s) {
       return transformBy(s, Transform::scale(n[0], n[1], n[2]));
     case Directive::Rotate: {
       const double largest = std::max({std::abs(n[1]), std::abs(n[2]), std::abs(n[3])});
-      if (!(largest > 0)) throw SceneError(s.at, "Rotate: the axis has length 0");
-      return transformBy(s, Transform::rotate(n[0], Vec3d(n[1], n[2], n[3]) / largest));
+      if (largest > 0) return transformBy(s, Transform::rotate(n[0], Vec3d(n[1], n[2], n[3]) / largest));
+      return diagnostics_.tolerated(s.at,
+                                    "Rotate: the axis has length 0; nothing is turned, while PBRT-v3 shows "
+                                    "nothing of what follows; leave it out, or give an axis");
     }
-    case Directive::LookAt: {
-      const auto view = Transform::lookAt({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]});
-      if (!view) {
-        throw SceneError(s.at, "LookAt: eye and target coincide, or the up vector is parallel to the view");
-      }
-      return transformBy(s, *view);
-    }
+    case Directive::LookAt:
+      return lookAt(s);
     case Directive::ConcatTransform:
       return transformBy(s, Transform(columnMajor(n)));
     case Directive::Transform: {
@@ -173,14 +188,43 @@ void DescriptionBuilder::transformBy(const Statement& s, const Transform& t) {
   setCtm(s, next);
 }
 
-void DescriptionBuilder::setCtm(const Statement& s, TransformPair next) {
-  for (const Transform* t : {&next.start, &next.end}) {
-    if (t->isSingular()) throw SceneError(s.at, std::string(s.info->name) + ": the matrix has no inverse");
-    if (!isFinite(t->matrix()) || !isFinite(t->inverseMatrix())) {
-      throw SceneError(s.at, std::string(s.info->name) + ": the transformation exceeds the range of numbers");
-    }
+void DescriptionBuilder::lookAt(const Statement& s) {
+  const auto& n = s.numbers;
+  const Vec3d eye{n[0], n[1], n[2]}, look{n[3], n[4], n[5]}, up{n[6], n[7], n[8]};
+  if (const auto view = Transform::lookAt(eye, look, up)) return transformBy(s, *view);
+  if (eye == look || up == Vec3d{}) {
+    return diagnostics_.tolerated(
+        s.at, std::string("LookAt: ") +
+                  (eye == look ? "eye and target coincide" : "the up vector has length 0") +
+                  "; it is ignored, while PBRT-v3 shows nothing of what follows");
   }
+  diagnostics_.tolerated(s.at, "LookAt: the up vector is parallel to the view; it is ignored, as in PBRT-v3");
+}
+
+/// A CTM without inverse is kept, as in PBRT-v3, and what stands under it is not seen. One that is not finite
+/// becomes one that maps everything to nowhere.
+void DescriptionBuilder::setCtm(const Statement& s, TransformPair next) {
+  const char* problem = nullptr;
+  for (Transform* t : {&next.start, &next.end}) {
+    const bool finite = isFinite(t->matrix()) && isFinite(t->inverseMatrix());
+    if (!finite) *t = Transform(kNowhere);
+    if (problem == nullptr && t->isSingular()) problem = "the matrix has no inverse";
+    if (!finite) problem = "the transformation exceeds the range of numbers";
+  }
+  const auto given = s.numbers.begin() + s.info->numbers;
+  if (!std::all_of(s.numbers.begin(), given, [](double x) { return std::isfinite(x); }))
+    problem = "found a number that is not finite";
+  const bool wasOutOfSight = isOutOfSight();
   state_.ctm = std::make_shared<const TransformPair>(next);
+  if (problem == nullptr || wasOutOfSight) return;
+  diagnostics_.tolerated(s.at,
+                         std::string(s.info->name) + ": " + problem +
+                             "; what stands under it is not seen, as in PBRT-v3 (meshes that it presses "
+                             "flat are)");
+}
+
+bool DescriptionBuilder::isOutOfSight() const {
+  return state_.ctm->start.isSingular() || state_.ctm->end.isSingular();
 }
 
 void DescriptionBuilder::coordSysTransform(const Statement& s) {
@@ -190,8 +234,9 @@ void DescriptionBuilder::coordSysTransform(const Statement& s) {
     return;
   }
   diagnostics_.tolerated(s.strings[0].at,
-                            "unknown coordinate system " + quotedName(s.strings[0].text) +
-                                suggestFrom(s.strings[0].text, [&] { return keysOf(coordinateSystems_); }));
+                         "unknown coordinate system " + quotedName(s.strings[0].text) +
+                             ": the transformation in force stays, as in PBRT-v3" +
+                             suggestFrom(s.strings[0].text, [&] { return keysOf(coordinateSystems_); }));
 }
 
 void DescriptionBuilder::activeTransform(const Statement& s) {
@@ -228,47 +273,82 @@ void DescriptionBuilder::applyBlock(const Statement& s) {
 }
 
 void DescriptionBuilder::openBlock(const Statement& s) {
-  if (blocks_.size() >= kMaxOpenBlocks) {
+  if (openTransforms_.size() >= kMaxOpenBlocks || openAttributes_.size() >= kMaxOpenBlocks) {
     throw SceneError(s.at, "more than " + std::to_string(kMaxOpenBlocks) + " blocks are open");
   }
-  blocks_.push_back({s.info->id, s.at, state_, object_});
+  openTransforms_.push_back({s.info->id, s.at, state_.ctm, state_.startActive, state_.endActive});
+  if (s.info->id != Directive::TransformBegin) openAttributes_.push_back({s.info->id, s.at, state_});
 }
 
-void DescriptionBuilder::restore(const OpenBlock& block) {
-  if (block.opener == Directive::TransformBegin) {
-    state_.ctm = block.saved.ctm;
-    state_.startActive = block.saved.startActive;
-    state_.endActive = block.saved.endActive;
-  } else {
-    state_ = block.saved;
-    object_ = block.object;
+/// What is odd about an End of blocks that `opener` begins, given what is open; "" when it is in order.
+std::string DescriptionBuilder::misnested(const Statement& s, Directive opener) const {
+  const auto block = [](const auto& open) {
+    return "the " + std::string(beginOf(open.opener)) + " at " + open.at.toString();
+  };
+  const std::string name = std::string(s.info->name) + ": ";
+  const OpenTransform& transform = openTransforms_.back();
+  if (opener == Directive::TransformBegin) {
+    if (transform.opener == opener) return {};
+    return name + block(transform) + " is still open; expected " + std::string(endOf(transform.opener)) +
+           "; as in PBRT-v3 its transformation is restored and nothing else";
   }
+  const OpenAttributes& attributes = openAttributes_.back();
+  std::string text;
+  if (attributes.opener != opener) {
+    text = name + block(attributes) + " is still open; expected " + std::string(endOf(attributes.opener)) +
+           "; as in PBRT-v3 it is closed by this";
+  }
+  const bool isSame = transform.opener == attributes.opener && transform.at.line == attributes.at.line &&
+                      transform.at.column == attributes.at.column;
+  if (!isSame) {
+    text = name + block(transform) + " is still open; expected " + std::string(endOf(transform.opener)) +
+           "; as in PBRT-v3 the attributes of " + block(attributes) +
+           " are restored, but the transformation of this one";
+  }
+  return text;
 }
 
+/// The innermost block ends, whatever began it: PBRT-v3 compares no names.
 void DescriptionBuilder::closeBlock(const Statement& s, Directive opener) {
-  const auto match =
-      std::find_if(blocks_.rbegin(), blocks_.rend(), [&](const auto& b) { return b.opener == opener; });
-  if (match != blocks_.rbegin()) {  // also when no block is open: then rbegin() == rend() == match
-    const OpenBlock& open = blocks_.back();
-    diagnostics_.error(s.at, std::string(s.info->name) + ": the " + std::string(beginOf(open.opener)) +
-                                 " at " + open.at.toString() + " is still open; expected " +
-                                 std::string(endOf(open.opener)));
-  } else if (blocks_.empty()) {
-    throw SceneError(s.at, std::string(s.info->name) + " without " + std::string(beginOf(opener)));
+  const bool hasAttributes = opener != Directive::TransformBegin;
+  const std::string name(s.info->name);
+  const bool noObject = opener == Directive::ObjectBegin && object_ == kNone;
+  if (opener == Directive::ObjectBegin) object_ = kNone;
+  if (hasAttributes ? openAttributes_.empty() : openTransforms_.empty()) {
+    return diagnostics_.tolerated(
+        s.at, name + " without " + std::string(beginOf(opener)) + "; it is ignored, as in PBRT-v3");
   }
-  if (match == blocks_.rend()) return;
-  const std::size_t left = static_cast<std::size_t>(blocks_.rend() - match) - 1;
-  while (blocks_.size() > left) {
-    restore(blocks_.back());
-    blocks_.pop_back();
+  if (openTransforms_.empty()) {
+    diagnostics_.error(
+        s.at, name + ": the transformation of the " + std::string(beginOf(openAttributes_.back().opener)) +
+                  " at " + openAttributes_.back().at.toString() +
+                  " was restored by a TransformEnd before; what PBRT-v3 does then is not defined");
+    openAttributes_.pop_back();
+    return;
   }
+  if (noObject) {
+    diagnostics_.tolerated(s.at, name + " where no object is defined; as in PBRT-v3 it closes the " +
+                                     std::string(beginOf(openAttributes_.back().opener)) + " at " +
+                                     openAttributes_.back().at.toString());
+  } else if (const std::string odd = misnested(s, opener); !odd.empty()) {
+    diagnostics_.tolerated(s.at, odd);
+  }
+  if (hasAttributes) {
+    state_ = std::move(openAttributes_.back().saved);
+    openAttributes_.pop_back();
+  }
+  state_.ctm = std::move(openTransforms_.back().ctm);
+  state_.startActive = openTransforms_.back().startActive;
+  state_.endActive = openTransforms_.back().endActive;
+  openTransforms_.pop_back();
 }
 
 void DescriptionBuilder::beginObject(const Statement& s) {
   if (object_ != kNone) {
     const ObjectDescription& outer = scene_.objects[static_cast<std::size_t>(object_)];
-    diagnostics_.error(s.at, "ObjectBegin inside the definition of object " + quotedName(outer.name) +
-                                 " begun at " + outer.location.toString());
+    diagnostics_.tolerated(s.at, "ObjectBegin inside the definition of object " + quotedName(outer.name) +
+                                     " begun at " + outer.location.toString() +
+                                     ", which ends here, as in PBRT-v3: nothing that follows belongs to it");
   }
   const std::string& name = s.strings[0].text;
   if (const auto it = objectsByName_.find(name); it != objectsByName_.end()) {
@@ -290,15 +370,15 @@ void DescriptionBuilder::placeObject(const Statement& s) {
   const std::string& name = s.strings[0].text;
   const auto it = objectsByName_.find(name);
   if (it == objectsByName_.end()) {
-    throw SceneError(s.strings[0].at, "unknown object " + quotedName(name) +
-                                          suggestFrom(name, [&] { return keysOf(objectsByName_); }));
+    return diagnostics_.tolerated(s.strings[0].at,
+                                  "unknown object " + quotedName(name) + ": left out, as in PBRT-v3" +
+                                      suggestFrom(name, [&] { return keysOf(objectsByName_); }));
   }
-  const auto index = static_cast<std::int32_t>(it->second);
-  const bool isOpen =
-      object_ == index || std::any_of(blocks_.begin(), blocks_.end(), [&](const OpenBlock& b) {
-        return b.opener == Directive::ObjectBegin && b.object == index;
-      });
-  if (isOpen) throw SceneError(s.strings[0].at, "object " + quotedName(name) + " would contain itself");
+  if (object_ == static_cast<std::int32_t>(it->second)) {
+    return diagnostics_.tolerated(
+        s.strings[0].at, "object " + quotedName(name) + " would contain itself: left out, as in PBRT-v3");
+  }
+  if (isOutOfSight()) return;
 
   InstanceDescription instance;
   instance.object = it->second;
@@ -328,9 +408,13 @@ void DescriptionBuilder::beginWorld(const Statement& s) {
 }
 
 void DescriptionBuilder::endWorld(const Statement& s) {
-  for (const OpenBlock& block : blocks_) {
-    diagnostics_.warning(block.at, std::string(beginOf(block.opener)) + " without " +
-                                       std::string(endOf(block.opener)) + " at WorldEnd");
+  const auto withoutEnd = [&](const auto& open) {
+    diagnostics_.tolerated(open.at, std::string(beginOf(open.opener)) + " without " +
+                                        std::string(endOf(open.opener)) + " at WorldEnd");
+  };
+  std::for_each(openAttributes_.begin(), openAttributes_.end(), withoutEnd);
+  for (const OpenTransform& open : openTransforms_) {
+    if (open.opener == Directive::TransformBegin) withoutEnd(open);
   }
   // Open blocks are dropped without restoring, so their medium is the camera's: as PBRT-v3 does.
   scene_.cameraMedium = mediaHere(s.at)->outside;
@@ -344,19 +428,23 @@ void DescriptionBuilder::reset() {
   scene_ = {};
   scene_.camera.worldFromCamera = std::make_shared<const TransformPair>();
   state_ = {};
-  blocks_.clear();
+  openAttributes_.clear();
+  openTransforms_.clear();
   inWorld_ = false;
   object_ = kNone;
   mediaByName_.clear();
   objectsByName_.clear();
   coordinateSystems_.clear();
   missingMedia_.clear();
+  leftOutMedia_.clear();
   notedNesting_ = false;
 }
 
 void DescriptionBuilder::finish() {
-  if (inWorld_)
-    diagnostics_.error(scene_.worldBegin, "the input ends without the WorldEnd of this WorldBegin");
+  const std::string unfinished = "the input ends without the WorldEnd of this WorldBegin";
+  if (inWorld_ && finished_.empty()) diagnostics_.error(scene_.worldBegin, unfinished);
+  if (inWorld_ && !finished_.empty())
+    diagnostics_.tolerated(scene_.worldBegin, unfinished + "; as in PBRT-v3 this world is not rendered");
   if (worlds_ == 0 && !diagnostics_.hasErrors()) {
     diagnostics_.error({}, "nothing to render: the input has no WorldBegin … WorldEnd");
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -22,6 +23,8 @@ class DescriptionBuilder {
   void apply(Statement s);
   /// The end of all input; reports a world without end and a scene without world.
   void finish();
+  /// Whether a world is complete and no other has begun.
+  bool isBehindWorld() const { return worlds_ > 0 && !inWorld_; }
   std::vector<SceneDescription> take() { return std::move(finished_); }
 
  private:
@@ -30,13 +33,18 @@ class DescriptionBuilder {
   void applyBlock(const Statement& s);
   void applyDefinition(Statement& s);
 
+  void transformTimes(const Statement& s);
+  void lookAt(const Statement& s);
   void transformBy(const Statement& s, const Transform& t);
   void setCtm(const Statement& s, TransformPair next);
+  /// Whether everything that stands under the CTM is out of sight; said where it came into force.
+  bool isOutOfSight() const;
+  bool isPressedFlat(const Statement& s) const;
   void coordSysTransform(const Statement& s);
   void activeTransform(const Statement& s);
   void openBlock(const Statement& s);
   void closeBlock(const Statement& s, Directive opener);
-  void restore(const OpenBlock& block);
+  std::string misnested(const Statement& s, Directive opener) const;
   void beginObject(const Statement& s);
   void placeObject(const Statement& s);
   void beginWorld(const Statement& s);
@@ -69,7 +77,8 @@ class DescriptionBuilder {
   Diagnostics& diagnostics_;
   SceneDescription scene_;
   GraphicsState state_;
-  std::vector<OpenBlock> blocks_;
+  std::vector<OpenAttributes> openAttributes_;
+  std::vector<OpenTransform> openTransforms_;
   bool inWorld_ = false;
   std::int32_t object_ = kNone;  ///< the object being defined
   std::unordered_map<std::string, std::uint32_t> mediaByName_, objectsByName_;
@@ -78,6 +87,7 @@ class DescriptionBuilder {
     SourceLocation named, user;
   };
   std::map<std::string, Missing> missingMedia_;  ///< by name: the first use of a medium not defined by then
+  std::set<std::string> leftOutMedia_;  ///< defined, but where they cannot be; vacuum takes their place
   bool notedNesting_ = false;
   std::size_t worlds_ = 0, suggestions_ = 0;
   std::vector<SceneDescription> finished_;

@@ -21,12 +21,21 @@ struct GraphicsState {
   std::size_t mediaSeen = 0;  ///< how many media existed when the names in `media` were looked up
 };
 
-/// An AttributeBegin, TransformBegin or ObjectBegin that waits for its End.
-struct OpenBlock {
+/// An AttributeBegin or ObjectBegin that waits for its End.
+struct OpenAttributes {
   Directive opener;
   SourceLocation at;
   GraphicsState saved;
-  std::int32_t object;  ///< the object definition around it
+};
+
+/// What every Begin saves of the transformation. PBRT-v3 keeps it on a stack of its own and pairs Begin and
+/// End by position alone (reference 5.2): one End may give back the attributes of one Begin and the
+/// transformation of another.
+struct OpenTransform {
+  Directive opener;
+  SourceLocation at;
+  SharedTransform ctm;
+  bool startActive, endActive;
 };
 
 }  // namespace pbrtmedia

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "scene/input_folders.h"
 
+#include <fstream>
 #include <system_error>
 
 namespace pbrtmedia {
+
+bool InputFolders::Found::canBeOpened() const {
+  std::error_code ignored;
+  return !std::filesystem::is_directory(path, ignored) && std::ifstream(path).is_open();
+}
 
 std::filesystem::path InputFolders::underBase(std::string_view name) const { return base / name; }
 

@@ -15,6 +15,8 @@ struct InputFolders {
   struct Found {
     std::filesystem::path path;
     bool besideIncluder = false;  ///< only found in `own`: deserves a warning, PBRT-v3 would miss it
+    /// False of a folder, and of a file that may not be read.
+    bool canBeOpened() const;
   };
   /// The name under `base`, else under `own`; nothing when neither exists. Absolute names stay as they are.
   std::optional<Found> locate(std::string_view name) const;

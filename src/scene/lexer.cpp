@@ -133,6 +133,15 @@ std::size_t Lexer::readInts(int* out, std::size_t most) {
   });
 }
 
+std::string_view Lexer::lineAround(const char* p) const {
+  const auto isEnd = [](char c) { return c == '\n' || c == '\r'; };
+  const char* first = p;
+  const char* last = p;
+  while (first != begin_ && !isEnd(first[-1])) --first;
+  while (last != end_ && !isEnd(*last)) ++last;
+  return {first, static_cast<std::size_t>(last - first)};
+}
+
 std::string unescaped(std::string_view raw, const SourceLocation& at) {
   const std::string_view body = raw.substr(1, raw.size() - 2);
   std::string text;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -40,6 +41,8 @@ class Lexer {
   /// a bracket, a number with a problem), which `next` then gives.
   std::size_t readFloats(float* out, std::size_t most);
   std::size_t readInts(int* out, std::size_t most);
+  /// The line of the text around `p`, without its end.
+  std::string_view lineAround(const char* p) const;
   /// Bytes of the text already turned into tokens.
   std::size_t offset() const { return static_cast<std::size_t>(p_ - begin_); }
 
@@ -56,6 +59,14 @@ class Lexer {
   std::uint32_t line_ = 1;
   bool keepComments_;
 };
+
+/// Where a line with an odd number of quotes most likely lacks one.
+struct MissingQuote {
+  std::size_t at = 0;   ///< bytes from the start of the line
+  std::string message;  ///< what is missing there
+};
+/// Nothing where the quotes of the line pair up, or the line is too long to be written by hand.
+std::optional<MissingQuote> findMissingQuote(std::string_view line);
 
 /// The characters a quoted token stands for. Throws SceneError at a backslash that starts no escape of the
 /// language; `at` is the place of the token.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <system_error>
 
 namespace pbrtmedia {
 namespace {
@@ -63,6 +65,85 @@ NumberStatus parse(std::string_view word, T& value) {
   return error == std::errc() && std::isfinite(value) ? NumberStatus::Ok : NumberStatus::NotANumber;
 }
 
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isHexDigit(char c) { return isDigit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
+char lower(char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); }
+
+/// How many bytes of `word` from `at` on are digits with at most one point; 0 when none is a digit.
+template <class IsDigit>
+std::size_t digitsLength(std::string_view word, std::size_t at, const IsDigit& is) {
+  std::size_t i = at, digits = 0;
+  bool point = false;
+  for (; i < word.size(); ++i) {
+    if (is(word[i])) {
+      ++digits;
+    } else if (word[i] == '.' && !point) {
+      point = true;
+    } else {
+      break;
+    }
+  }
+  return digits == 0 ? 0 : i - at;
+}
+
+/// Bytes of an exponent at `at` with its letter; 0 when it has no digit.
+std::size_t exponentLength(std::string_view word, std::size_t at, char letter) {
+  if (at >= word.size() || lower(word[at]) != letter) return 0;
+  std::size_t i = at + 1;
+  if (i < word.size() && (word[i] == '-' || word[i] == '+')) ++i;
+  const std::size_t first = i;
+  while (i < word.size() && isDigit(word[i])) ++i;
+  return i == first ? 0 : i - at;
+}
+
+template <class T>
+NumberPrefix parsePrefix(std::string_view word, T& value) {
+  using Kind = NumberPrefix::Kind;
+  const bool negative = !word.empty() && word[0] == '-';
+  const std::size_t sign = !word.empty() && (word[0] == '-' || word[0] == '+') ? 1 : 0;
+  const auto signedValue = [&](T x) { return negative ? -x : x; };
+  const auto starts = [&](std::string_view text) {
+    return word.size() >= sign + text.size() &&
+           std::equal(text.begin(), text.end(), word.begin() + static_cast<std::ptrdiff_t>(sign),
+                      [](char a, char b) { return a == lower(b); });
+  };
+  constexpr T kInfinity = std::numeric_limits<T>::infinity();
+  if (starts("inf")) {
+    value = signedValue(kInfinity);
+    return {Kind::Infinite, sign + (starts("infinity") ? 8 : 3)};
+  }
+  if (starts("nan")) {
+    value = std::numeric_limits<T>::quiet_NaN();
+    return {Kind::NotANumber, sign + 3};
+  }
+  if (starts("0x")) {
+    const std::size_t digits = digitsLength(word, sign + 2, isHexDigit);
+    if (digits > 0) {
+      const std::size_t length = sign + 2 + digits + exponentLength(word, sign + 2 + digits, 'p');
+      T magnitude = 0;
+      const auto error =
+          std::from_chars(word.data() + sign + 2, word.data() + length, magnitude, std::chars_format::hex).ec;
+      if (error == std::errc::result_out_of_range) {
+        // A hexadecimal number is too large or too small by its exponent alone, or by very many digits.
+        const std::size_t p = word.find_first_of("pP");
+        const bool isSmall = p < length && word[p + 1] == '-';
+        value = signedValue(isSmall ? T(0) : kInfinity);
+        return {isSmall ? Kind::Hexadecimal : Kind::Infinite, length};
+      }
+      value = signedValue(magnitude);
+      return {Kind::Hexadecimal, length};
+    }
+  }
+  const std::size_t digits = digitsLength(word, sign, isDigit);
+  if (digits == 0) return {};
+  const std::size_t length = sign + digits + exponentLength(word, sign + digits, 'e');
+  if (parse(word.substr(0, length), value) == NumberStatus::TooLarge) {
+    value = signedValue(kInfinity);
+    return {Kind::Infinite, length};
+  }
+  return {Kind::Decimal, length};
+}
+
 }  // namespace
 
 void takeFirstDigits(std::string_view digits, Decimal& d) {
@@ -89,5 +170,8 @@ void takeFirstDigits(std::string_view digits, Decimal& d) {
 
 NumberStatus parseFloat(std::string_view word, float& value) { return parse(word, value); }
 NumberStatus parseDouble(std::string_view word, double& value) { return parse(word, value); }
+
+NumberPrefix parseFloatPrefix(std::string_view word, float& value) { return parsePrefix(word, value); }
+NumberPrefix parseDoublePrefix(std::string_view word, double& value) { return parsePrefix(word, value); }
 
 }  // namespace pbrtmedia

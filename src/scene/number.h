@@ -3,12 +3,21 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 namespace pbrtmedia {
 
 enum class NumberStatus { Ok, NotANumber, TooLarge };
+
+/// What a word begins with. PBRT-v3 reads numbers as C's strtof does and does not look at the rest of the
+/// word.
+struct NumberPrefix {
+  enum class Kind { Nothing, Decimal, Hexadecimal, Infinite, NotANumber };
+  Kind kind = Kind::Nothing;  ///< Infinite: `inf`, or beyond the range of the type; NotANumber: `nan`
+  std::size_t length = 0;     ///< bytes that make the number
+};
 
 /// A decimal number taken apart: value = (negative ? -1 : 1) · mantissa · 10^exponent, if `exact`; else the
 /// true mantissa lies above by less than 1.
@@ -103,5 +112,11 @@ inline bool exactFloat(const Decimal& d, float& value) {
 // Whole words: decimal numbers only. Correctly rounded; too small a number is 0.
 NumberStatus parseFloat(std::string_view word, float& value);
 NumberStatus parseDouble(std::string_view word, double& value);
+
+/// The longest beginning of a word that strtof would read: sign, decimal or hexadecimal digits, exponent, or
+/// `inf`, `infinity`, `nan` in any case. `value` is infinite or NaN where the kind says so, and stays as it
+/// is for `Nothing`. Correctly rounded; too small a number is 0.
+NumberPrefix parseFloatPrefix(std::string_view word, float& value);
+NumberPrefix parseDoublePrefix(std::string_view word, double& value);
 
 }  // namespace pbrtmedia

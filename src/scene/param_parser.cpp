@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 #include "scene/directives.h"
 #include "scene/number.h"
@@ -13,12 +15,6 @@ namespace {
 constexpr std::size_t kBlock = 6144;      // numbers converted at once; a multiple of every element size
 constexpr std::size_t kMaxParams = 4096;  // per directive: real ones take some twenty
 
-bool convert(const Token& token, float& value, std::string& why) {
-  const NumberStatus status = parseFloat(token.raw, value);
-  if (status != NumberStatus::Ok) why = wrongNumber(token.raw, status);
-  return status == NumberStatus::Ok;
-}
-
 }  // namespace
 
 struct ParamParser::Values {
@@ -27,10 +23,13 @@ struct ParamParser::Values {
   Param param;
   bool bracketed = false;
   std::size_t count = 0;  ///< tokens read
+  /// The first number beyond all bounds, and where it stands.
+  std::string infinite;
+  SourceLocation infiniteAt;
 };
 
 ParamParser::ParamParser(TokenStream& tokens, Diagnostics& diagnostics, bool readFiles)
-    : tokens_(tokens), diagnostics_(diagnostics), spectra_(diagnostics, readFiles) {
+    : tokens_(tokens), diagnostics_(diagnostics), spectra_(diagnostics, readFiles), loose_(diagnostics) {
   floatBlock_.reserve(kBlock);
   intBlock_.reserve(kBlock);
 }
@@ -41,8 +40,12 @@ void ParamParser::problem(const Values& v, const SourceLocation& at, const std::
   diagnostics_.error(at, whatOf(v) + message);
 }
 
-void ParamParser::lenientProblem(const Values& v, const SourceLocation& at, const std::string& message) {
+void ParamParser::toleratedProblem(const Values& v, const SourceLocation& at, const std::string& message) {
   diagnostics_.tolerated(at, whatOf(v) + message);
+}
+
+void ParamParser::checkQuotes(const Token& token) const {
+  if (const auto missing = tokens_.missingQuote(token)) throw *missing;
 }
 
 ParamList ParamParser::parse(const InputFolders& folders) {
@@ -62,9 +65,7 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
   Values v;
   const Token declaration = tokens_.take();
   v.param.declaredAt = v.param.valuesAt = tokens_.locate(declaration);
-  if (declaration.kind == Token::Kind::Unclosed) {
-    throw SceneError(v.param.declaredAt, "the string has no closing \" on its line");
-  }
+  if (declaration.kind == Token::Kind::Unclosed) tokens_.throwUnclosed(declaration);
   const std::string text = unescaped(declaration.raw, v.param.declaredAt);
   std::size_t i = 0;
   const std::string typeName(nextWord(text, i));
@@ -72,16 +73,19 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
   const std::string extra(nextWord(text, i));
   v.type = findParamType(typeName);
   v.declaration = shown(text);
+  if (v.param.name.empty() || !v.type || !extra.empty()) checkQuotes(declaration);
   if (v.param.name.empty()) {
-    diagnostics_.error(v.param.declaredAt, "found " + inQuotes(v.declaration) +
-                                               ", expected a parameter \"type name\", such as \"float fov\"");
+    diagnostics_.tolerated(v.param.declaredAt,
+                           "found " + inQuotes(v.declaration) +
+                               ", expected a parameter \"type name\", such as \"float fov\"; it is left out, "
+                               "as in PBRT-v3");
     v.type = nullptr;
   } else if (!v.type) {
-    diagnostics_.error(v.param.declaredAt, "parameter " + inQuotes(v.declaration) + ": unknown type \"" +
-                                               shown(typeName) + '"' + suggestParamType(typeName));
+    diagnostics_.tolerated(v.param.declaredAt, whatOf(v) + "unknown type \"" + shown(typeName) +
+                                                   "\", left out as in PBRT-v3" + suggestParamType(typeName));
   } else if (!extra.empty()) {
-    lenientProblem(v, v.param.declaredAt,
-                   "found " + inQuotes(shown(extra)) + " after the name, which PBRT-v3 ignores");
+    toleratedProblem(v, v.param.declaredAt,
+                     "found " + inQuotes(shown(extra)) + " after the name, which PBRT-v3 ignores");
   }
 
   if (tokens_.peek().kind == Token::Kind::Open) {
@@ -96,8 +100,7 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
   const SourceLocation firstAt = tokens_.locate(first);
   const std::string what = whatOf(v);
   const bool strings = first.kind == Token::Kind::String;
-  if (first.kind == Token::Kind::Unclosed)
-    throw SceneError(firstAt, "the string has no closing \" on its line");
+  if (first.kind == Token::Kind::Unclosed) tokens_.throwUnclosed(first);
   if (first.kind == Token::Kind::End)
     throw SceneError(firstAt, what + "the input ends where a value is expected");
   if (first.kind == Token::Kind::Open || (first.kind == Token::Kind::Close && !v.bracketed)) {
@@ -113,11 +116,18 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
   }
   if (!isEmpty && strings != v.type->words &&
       !(strings && v.type->spectral == ParamType::Spectral::Samples)) {
-    if (v.type->kind == ParamKind::Bool) {
-      problem(v, firstAt, "found " + shown(first.raw) + ", expected \"true\" or \"false\" with quotes");
+    float ignored;
+    const bool isNumber = first.kind == Token::Kind::Word &&
+                          parseFloatPrefix(first.raw, ignored).kind != NumberPrefix::Kind::Nothing;
+    const std::string expected = v.type->kind == ParamKind::Bool ? "\"true\" or \"false\" with quotes"
+                                 : v.type->words                 ? "a quoted string"
+                                                                 : "a number";
+    const std::string message = "found " + shown(first.raw) + ", expected " + expected;
+    if (strings || isNumber) {
+      toleratedProblem(v, firstAt, message + "; the parameter is left out, as in PBRT-v3");
     } else {
-      problem(v, firstAt,
-              "found " + shown(first.raw) + ", expected " + (v.type->words ? "a quoted string" : "a number"));
+      checkQuotes(first);
+      problem(v, firstAt, message);
     }
     return skipValues(v.bracketed);
   }
@@ -138,32 +148,48 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
   list.add(std::move(v.param));
 }
 
+/// One token as a number, by PBRT-v3's rule where it is none of ours.
 template <class T>
 bool ParamParser::appendNumber(Values& v, const Token& token, std::vector<T>& block) {
-  std::string why;
-  if constexpr (std::is_same_v<T, float>) {
+  constexpr bool kIsFloat = std::is_same_v<T, float>;
+  using Kind = NumberPrefix::Kind;
+  if constexpr (kIsFloat) {
     float value;
-    if (convert(token, value, why)) {
+    if (parseFloat(token.raw, value) == NumberStatus::Ok) {
       block.push_back(value);
       return true;
     }
-  } else {
-    double value;
-    const NumberStatus status = parseDouble(token.raw, value);
-    const bool fits = status == NumberStatus::Ok && value > -2147483649.0 && value < 2147483648.0;
-    if (fits) {
-      if (value != std::trunc(value)) {
-        lenientProblem(
-            v, tokens_.locate(token),
-            "found " + shown(token.raw) + ", expected a whole number; PBRT-v3 cuts the fraction off");
-      }
-      block.push_back(static_cast<T>(value));
-      return true;
-    }
-    why = wrongNumber(token.raw, status == NumberStatus::Ok ? NumberStatus::TooLarge : status);
   }
-  problem(v, tokens_.locate(token), why);
-  return false;
+  const SourceLocation at = tokens_.locate(token);
+  std::conditional_t<kIsFloat, float, double> value = 0;
+  NumberPrefix number;
+  if constexpr (kIsFloat) {
+    number = parseFloatPrefix(token.raw, value);
+  } else {
+    number = parseDoublePrefix(token.raw, value);
+    if (number.kind != Kind::NotANumber && std::abs(std::trunc(value)) > 2147483647.0 &&
+        value != -2147483648.0)
+      number.kind = Kind::Infinite;
+  }
+  if (number.kind == Kind::Nothing) checkQuotes(token);
+  const bool mayBeInfinite = v.type->kind == ParamKind::Float;
+  if (number.kind == Kind::Nothing || number.kind == Kind::NotANumber ||
+      (number.kind == Kind::Infinite && !mayBeInfinite)) {
+    problem(v, at, wrongNumber(token.raw, number.kind));
+    return false;
+  }
+  if (number.kind == Kind::Infinite && v.infinite.empty()) {
+    v.infinite = shown(token.raw);
+    v.infiniteAt = at;
+  }
+  loose_.add(at, token.raw, number);
+  if constexpr (kIsFloat) {
+    block.push_back(value);
+  } else {
+    if (value != std::trunc(value)) loose_.addFraction(at, token.raw);
+    block.push_back(static_cast<int>(value));
+  }
+  return true;
 }
 
 /// Reads numbers up to the closing bracket, handing them to `sink(pointer, count)` in blocks; every block but
@@ -263,14 +289,29 @@ bool ParamParser::readNumbers(Values& v) {
       good = collect(v, floatBlock_, elements(v.param.values.emplace<std::vector<Point3f>>(), 3));
       break;
   }
-  if (!good) return false;
+  if (!good || !settleInfinity(v)) return false;
   if (const std::size_t excess = v.count % v.type->perElement; excess != 0) {
-    lenientProblem(v, v.param.valuesAt,
-                   "found " + std::to_string(v.count) + " numbers, expected a multiple of " +
-                       std::to_string(v.type->perElement));
+    toleratedProblem(v, v.param.valuesAt,
+                     "found " + std::to_string(v.count) + " numbers, expected a multiple of " +
+                         std::to_string(v.type->perElement) + "; those too many are left out, as in PBRT-v3");
     spectral.resize(spectral.size() - std::min(excess, spectral.size()));
   }
   return v.type->kind != ParamKind::Spectrum || spectra_.fromNumbers(v.param, *v.type, spectral, whatOf(v));
+}
+
+/// A single infinite number stands for the largest one ("no limit"); among others it has no meaning.
+bool ParamParser::settleInfinity(Values& v) {
+  if (v.infinite.empty()) return true;
+  if (v.count != 1) {
+    problem(v, v.infiniteAt, "found " + v.infinite + ", expected finite numbers");
+    return false;
+  }
+  float& value = std::get<std::vector<float>>(v.param.values).front();
+  value = std::copysign(std::numeric_limits<float>::max(), value);
+  toleratedProblem(v, v.infiniteAt,
+                   "found " + v.infinite + ", which is infinite in PBRT-v3; the largest number is taken, " +
+                       (value < 0 ? "-" : "") + "3.4028235e38");
+  return true;
 }
 
 bool ParamParser::readStrings(Values& v) {
@@ -282,7 +323,7 @@ bool ParamParser::readStrings(Values& v) {
       break;
     }
     const SourceLocation at = tokens_.locate(next);
-    if (next.kind == Token::Kind::Unclosed) throw SceneError(at, "the string has no closing \" on its line");
+    if (next.kind == Token::Kind::Unclosed) tokens_.throwUnclosed(next);
     if (next.kind != Token::Kind::String) {
       const std::string found = next.kind == Token::Kind::End ? "the input ends" : "found " + shown(next.raw);
       const bool missing = next.kind == Token::Kind::End || findDirective(next.raw);
@@ -296,7 +337,9 @@ bool ParamParser::readStrings(Values& v) {
     if (!v.bracketed) break;
   }
   if (v.type->kind == ParamKind::Texture && strings.size() != 1) {
-    problem(v, v.param.valuesAt, "found " + std::to_string(strings.size()) + " names, expected one");
+    toleratedProblem(v, v.param.valuesAt,
+                     "found " + std::to_string(strings.size()) +
+                         " names, expected one; the parameter is left out, as in PBRT-v3");
     return false;
   }
   if (v.type->kind != ParamKind::Bool) {
@@ -306,7 +349,7 @@ bool ParamParser::readStrings(Values& v) {
   auto& bools = v.param.values.emplace<std::vector<std::uint8_t>>();
   for (const std::string& s : strings) {
     if (s != "true" && s != "false") {
-      lenientProblem(
+      toleratedProblem(
           v, v.param.locationOf(bools.size()),
           "found " + inQuotes(shown(s)) + R"(, expected "true" or "false"; PBRT-v3 takes it as false)");
     }

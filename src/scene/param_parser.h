@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/loose_numbers.h"
 #include "scene/param_list.h"
 #include "scene/spectrum_values.h"
 #include "scene/token_stream.h"
@@ -18,11 +19,14 @@ class ParamParser {
   /// All `"type name" values` up to the next token that is no quoted string. A parameter with a problem is
   /// reported and left out. Throws SceneError where reading on needs a new directive.
   ParamList parse(const InputFolders& folders);
+  /// Those of parameters, and of whoever reads the same tokens.
+  LooseNumbers& looseNumbers() { return loose_; }
 
  private:
   struct Values;  // what is being read
   void parseOne(const InputFolders& folders, ParamList& list);
   bool readNumbers(Values& v);
+  bool settleInfinity(Values& v);
   template <class T, class Sink>
   bool collect(Values& v, std::vector<T>& block, Sink&& sink);
   template <class T>
@@ -32,11 +36,15 @@ class ParamParser {
   /// How messages about the parameter begin.
   static std::string whatOf(const Values& v);
   void problem(const Values& v, const SourceLocation& at, const std::string& message);
-  void lenientProblem(const Values& v, const SourceLocation& at, const std::string& message);
+  /// What PBRT-v3 goes on with.
+  void toleratedProblem(const Values& v, const SourceLocation& at, const std::string& message);
+  /// Throws SceneError when a quote is missing on the line of the token: then nothing else on it makes sense.
+  void checkQuotes(const Token& token) const;
 
   TokenStream& tokens_;
   Diagnostics& diagnostics_;
   SpectrumValues spectra_;
+  LooseNumbers loose_;
   std::vector<float> floatBlock_;
   std::vector<int> intBlock_;
 };

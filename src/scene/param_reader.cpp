@@ -52,7 +52,8 @@ const T* ParamReader::scalar(ParamKind kind, std::string_view name) {
   const auto& values = std::get<std::vector<T>>(p->values);
   if (values.size() == 1) return values.data();
   diagnostics_.tolerated(p->valuesAt, context_ + ": parameter " + quotedName(name) + ": found " +
-                                          std::to_string(values.size()) + " values, expected 1");
+                                          std::to_string(values.size()) +
+                                          " values, expected 1; it is ignored, as in PBRT-v3");
   return nullptr;
 }
 
@@ -154,10 +155,20 @@ std::size_t ParamReader::findChoice(std::string_view name, std::span<const std::
   if (!word) return fallback;
   const auto it = std::find(choices.begin(), choices.end(), *word);
   if (it != choices.end()) return static_cast<std::size_t>(it - choices.begin());
-  diagnostics_.tolerated(
-      locationOf(ParamKind::String, name),
-      context_ + ": unknown " + std::string(name) + ' ' + quotedName(*word) + suggestion(*word, choices));
+  diagnostics_.tolerated(locationOf(ParamKind::String, name),
+                         context_ + ": unknown " + std::string(name) + ' ' + quotedName(*word) +
+                             suggestion(*word, choices) + "; \"" + std::string(choices[fallback]) +
+                             "\" is taken, as in PBRT-v3");
   return fallback;
+}
+
+std::optional<std::string> ParamReader::optionalOwnString(std::string_view name) {
+  const Param* const p = find(ParamKind::String, name);
+  if (!p) return std::nullopt;
+  const auto& values = std::get<std::vector<std::string>>(p->values);
+  if (values.size() == 1) return values.front();
+  error(ParamKind::String, name, "found " + std::to_string(values.size()) + " values, expected 1");
+  return std::nullopt;
 }
 
 std::optional<std::filesystem::path> ParamReader::findInputFile(std::string_view name,
@@ -217,7 +228,7 @@ void ParamReader::reportUnused() {
     std::string message = context_ + ": ";
     if (!kinds.empty()) {
       message += "parameter " + quotedName(p.name) + ": found type " + std::string(keyword(p.kind)) +
-                 ", expected " + kinds;
+                 ", expected " + kinds + "; it is ignored, as in PBRT-v3";
     } else {
       message += "unknown parameter " + quotedName(p.name);
       message += names.empty() ? "; no parameters are known here" : suggestion(p.name, names);

@@ -51,7 +51,7 @@ class ParamReader {
   const std::string& context() const { return context_; }
   Diagnostics& diagnostics() const { return diagnostics_; }
 
-  // Scalars: exactly one element, else an error (--lenient: a warning) and the fallback, as in PBRT-v3.
+  // Scalars: exactly one element, else a warning (--strict: an error) and the fallback, as in PBRT-v3.
   // A number outside `range` is always an error.
   float findFloat(std::string_view name, float fallback, Range range = {});
   int findInt(std::string_view name, int fallback, Range range = {});
@@ -86,10 +86,12 @@ class ParamReader {
   const Param* find(ParamKind kind, std::string_view name);
   bool has(ParamKind kind, std::string_view name) { return find(kind, name) != nullptr; }
 
-  /// Index into `choices` of the string parameter. An unknown word is an error listing the choices
-  /// (--lenient: a warning) and gives the fallback.
+  /// Index into `choices` of a string parameter of PBRT-v3's. An unknown word is a warning (--strict: an
+  /// error) listing the choices and gives the fallback.
   std::size_t findChoice(std::string_view name, std::span<const std::string_view> choices,
                          std::size_t fallback);
+  /// A string parameter of our own: more or fewer than one value are an error, as nothing of ours is guessed.
+  std::optional<std::string> optionalOwnString(std::string_view name);
   /// An existing input file named by a string parameter. Nothing when absent, empty or missing; a missing one
   /// is an error, or tolerated where PBRT-v3 renders without it: then `consequence` says how. Found only
   /// beside the including file: a warning.
@@ -103,7 +105,7 @@ class ParamReader {
   /// An error at the directive: `context: message`.
   void error(const std::string& message);
 
-  /// An error (--lenient: a warning) for each entry nobody asked for, with the kind that was asked for under
+  /// A warning (--strict: an error) for each entry nobody asked for, with the kind that was asked for under
   /// that name, or the nearest names.
   void reportUnused();
 

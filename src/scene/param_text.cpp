@@ -2,6 +2,7 @@
 #include "scene/param_text.h"
 
 #include <string>
+#include <utility>
 
 #include "scene/messages.h"
 #include "scene/param_parser.h"
@@ -11,20 +12,27 @@ namespace pbrtmedia {
 
 ParamList parseParams(std::string_view text, std::string_view shownName, Diagnostics& diagnostics) {
   diagnostics.keepText(std::string(shownName), std::string(text));
+  Diagnostics all;  // PBRT-v3 has no such text, so nothing of it is tolerated
+  all.strict = true;
   TokenStream tokens;
   const InputFolders folders{".", "."};
   tokens.pushText(text, shownName, folders);
-  ParamParser parser(tokens, diagnostics, true);
+  ParamParser parser(tokens, all, true);
   ParamList list;
   try {
     list = parser.parse(folders);
     const Token& rest = tokens.peek();
     if (rest.kind != Token::Kind::End) {
-      diagnostics.error(tokens.locate(rest),
-                        "found " + shown(rest.raw) + ", expected \"type name\" and values");
+      all.error(tokens.locate(rest), "found " + shown(rest.raw) + ", expected \"type name\" and values");
     }
   } catch (const SceneError& e) {
-    diagnostics.add(e);
+    all.add(e);
+  }
+  parser.looseNumbers().report();
+  for (Diagnostic d : all.all()) {
+    constexpr std::string_view kSuffix = " [--strict]";  // has no part in it
+    if (d.message.ends_with(kSuffix)) d.message.erase(d.message.size() - kSuffix.size());
+    diagnostics.add(d.severity, d.location, std::move(d.message));
   }
   return list;
 }

@@ -62,18 +62,18 @@ bool looksLikeNumber(std::string_view raw) {
   return !raw.empty() && raw.find_first_of("0123456789") <= 2 && (raw[0] < 'A' || raw[0] > 'Z');
 }
 
-std::string wrongNumber(std::string_view raw, NumberStatus status) {
-  std::string message = "found " + shown(raw);
-  if (status == NumberStatus::TooLarge) return message + ", which is too large";
-  std::string lower(raw.substr(0, 10));
-  for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  const std::size_t sign = !lower.empty() && (lower[0] == '-' || lower[0] == '+') ? 1 : 0;
-  const auto starts = [&](std::string_view s) { return std::string_view(lower).substr(sign, s.size()) == s; };
-  if (starts("inf") || starts("nan")) return message + ", expected a finite number";
-  if (starts("0x")) return message + ", expected a decimal number";
-  if (raw.find('#') != raw.npos) return message + ", expected a number; a comment needs a blank before its #";
-  if (raw.find(',') != raw.npos) return message + ", expected numbers separated by blanks";
-  return message + ", expected a number";
+std::string wrongNumber(std::string_view raw, NumberPrefix::Kind kind) {
+  const std::string message = "found " + shown(raw);
+  switch (kind) {
+    case NumberPrefix::Kind::Infinite: {
+      const bool isWord = raw.find_first_of("0123456789") == raw.npos;
+      return message + (isWord ? ", expected a finite number" : ", which is too large");
+    }
+    case NumberPrefix::Kind::NotANumber:
+      return message + ", expected a finite number";
+    default:
+      return message + ", expected a number";
+  }
 }
 
 }  // namespace pbrtmedia

@@ -30,7 +30,7 @@ std::string_view nextWord(std::string_view text, std::size_t& i);
 /// Whether a quoted token in the wrong place looks like the start of the next parameter.
 bool looksLikeDeclaration(std::string_view raw);
 bool looksLikeNumber(std::string_view raw);
-/// What is wrong with a word where a number is expected, and what was found.
-std::string wrongNumber(std::string_view raw, NumberStatus status);
+/// What is wrong with a word where a finite number is expected, and what was found.
+std::string wrongNumber(std::string_view raw, NumberPrefix::Kind kind);
 
 }  // namespace pbrtmedia

@@ -33,8 +33,12 @@ class Parser {
         if (!s) return true;
         carryOut(std::move(*s));
       } catch (const SceneError& e) {
-        diagnostics_.add(e);
-        tokens_.skipToDirective();
+        if (builder_.isBehindWorld()) {
+          tokens_.addBehindWorld(e, diagnostics_);
+        } else {
+          diagnostics_.add(e);
+          tokens_.skipToDirective();
+        }
       }
     }
     diagnostics_.error({}, "too many errors; the rest is not read");
@@ -43,6 +47,7 @@ class Parser {
   }
 
   std::vector<SceneDescription> finish() {
+    params_.looseNumbers().report();
     if (!stopped_) builder_.finish();
     std::vector<SceneDescription> worlds = builder_.take();
     for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i].textHash = hashCombine(tokens_.textHash(), i);
@@ -79,7 +84,11 @@ class Parser {
       if (s.folders->own != s.folders->base) {
         looked += ", nor \"" + shown((s.folders->own / name.text).string()) + '"';
       }
-      throw SceneError(name.at, looked);
+      return diagnostics_.tolerated(name.at, looked + "; the Include is left out, as in PBRT-v3");
+    }
+    if (!found->canBeOpened()) {
+      return diagnostics_.tolerated(name.at, "cannot read the file \"" + shown(found->path.string()) +
+                                                 "\"; the Include is left out, as in PBRT-v3");
     }
     if (const auto cycle = tokens_.cycleTo(found->path)) {
       throw SceneError(name.at, "Include would never end: " + *cycle + ':' + std::to_string(s.at.line) + ':' +

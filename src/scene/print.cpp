@@ -66,14 +66,21 @@ class Printer {
     try {
       open(tokens_);
       while (std::optional<Statement> s = statements_.next()) {
-        if (diagnostics_.errorCount() > errors) return;
+        if (diagnostics_.errorCount() > errors) break;
         printComments(tokens_.tokensTaken());
         printStatement(*s);
+        if (s->info->id == Directive::WorldBegin || s->info->id == Directive::WorldEnd)
+          isBehindWorld_ = s->info->id == Directive::WorldEnd;
       }
-      printComments(tokens_.tokensTaken() + 1);
+      if (diagnostics_.errorCount() == errors) printComments(tokens_.tokensTaken() + 1);
     } catch (const SceneError& e) {
-      diagnostics_.add(e);
+      if (isBehindWorld_) {
+        tokens_.addBehindWorld(e, diagnostics_);
+      } else {
+        diagnostics_.add(e);
+      }
     }
+    params_.looseNumbers().report();
   }
 
  private:
@@ -185,6 +192,7 @@ class Printer {
   ParamParser params_;
   StatementReader statements_;
   std::size_t indent_ = 0, meshes_ = 0;
+  bool isBehindWorld_ = false;
 };
 
 }  // namespace

@@ -55,8 +55,11 @@ bool DescriptionBuilder::typeFromParameter(Statement& s, Entity& entity) {
     const std::vector<Param>& all = entity.params.all();
     const auto other = std::find_if(all.begin(), all.end(), [](const Param& p) { return p.name == "type"; });
     const SourceLocation& at = other != all.end() ? other->valuesAt : s.strings[0].at;
-    diagnostics_.error(at,
-                       std::string(s.info->name) + ' ' + quotedName(name) + ": expected one \"string type\"");
+    const std::string effect = s.info->id == Directive::MakeNamedMedium
+                                   ? "; it is left out, as in PBRT-v3: vacuum takes its place"
+                                   : "; as in PBRT-v3 it is the material \"none\": what has it is not seen";
+    diagnostics_.tolerated(
+        at, std::string(s.info->name) + ' ' + quotedName(name) + ": expected one \"string type\"" + effect);
     return false;
   }
   type->used = true;
@@ -69,10 +72,23 @@ void DescriptionBuilder::makeMedium(Statement& s) {
   MediumDescription medium;
   medium.name = s.strings[0].text;
   const SourceLocation nameAt = s.strings[0].at;
-  if (medium.name.empty()) throw SceneError(nameAt, "MakeNamedMedium: the name \"\" means vacuum");
-  if (!typeFromParameter(s, medium)) return;
+  if (medium.name.empty()) {
+    return diagnostics_.tolerated(
+        nameAt, "MakeNamedMedium: the name \"\" means vacuum; it is left out, as in PBRT-v3");
+  }
+  if (!typeFromParameter(s, medium)) {
+    leftOutMedia_.insert(medium.name);
+    return;
+  }
   warnIfAnimated(s);
   medium.ctm = state_.ctm;
+  if (medium.ctm->start.isSingular()) {
+    if (medium.type != "homogeneous") {
+      leftOutMedia_.insert(medium.name);
+      return;
+    }
+    medium.ctm = std::make_shared<const TransformPair>();  // has no effect on it
+  }
   medium.scope = state_.scope;
   const auto index = static_cast<std::uint32_t>(scene_.media.size());
   if (const auto [it, isNew] = mediaByName_.try_emplace(medium.name, index); !isNew) {
@@ -112,7 +128,7 @@ void DescriptionBuilder::lookUp(MediumUse& use, const SourceLocation& user) {
   if (use.name.empty()) return;
   if (const auto it = mediaByName_.find(use.name); it != mediaByName_.end()) {
     use.index = static_cast<std::int32_t>(it->second);
-  } else {
+  } else if (leftOutMedia_.count(use.name) == 0) {
     missingMedia_.try_emplace(use.name, Missing{use.location, user});
   }
 }
@@ -126,12 +142,14 @@ void DescriptionBuilder::reportMissingMedia() {
   for (const auto& [name, missing] : missingMedia_) {
     const auto later = mediaByName_.find(name);
     if (later == mediaByName_.end()) {
-      diagnostics_.error(missing.named, "undefined medium " + quotedName(name) + suggestFrom(name, names));
+      diagnostics_.tolerated(missing.named, "undefined medium " + quotedName(name) +
+                                                ": vacuum is rendered in its place, as in PBRT-v3" +
+                                                suggestFrom(name, names));
     } else {
       diagnostics_.tolerated(missing.named, "medium " + quotedName(name) + " is used at " +
-                                                   missing.user.toString() + " but defined only at " +
-                                                   scene_.media[later->second].location.toString() +
-                                                   "; PBRT-v3 takes vacuum until then");
+                                                missing.user.toString() + " but defined only at " +
+                                                scene_.media[later->second].location.toString() +
+                                                "; as in PBRT-v3 it is vacuum until then");
     }
   }
 }
@@ -143,8 +161,9 @@ void DescriptionBuilder::texture(Statement& s) {
   const std::string& flavour = s.strings[1].text;
   if (flavour != "float" && flavour != "color" && flavour != "spectrum") {
     const std::array<std::string_view, 3> known{"float", "spectrum", "color"};
-    throw SceneError(s.strings[1].at, "Texture " + quotedName(texture.name) + ": unknown flavour " +
-                                          quotedName(flavour) + suggestion(flavour, known));
+    return diagnostics_.tolerated(
+        s.strings[1].at, "Texture " + quotedName(texture.name) + ": unknown flavour " + quotedName(flavour) +
+                             ", left out as in PBRT-v3" + suggestion(flavour, known));
   }
   texture.flavour = flavour == "float" ? TextureFlavour::Float : TextureFlavour::Spectrum;
   s.moveInto(texture, 2);
@@ -190,9 +209,10 @@ void DescriptionBuilder::namedMaterial(const Statement& s) {
   const std::string& name = s.strings[0].text;
   const auto index = NameScope::find(state_.scope, NameScope::Kind::Materials, name);
   if (!index) {
-    throw SceneError(s.strings[0].at, "unknown material " + quotedName(name) + suggestFrom(name, [&] {
-                                        return NameScope::names(state_.scope, NameScope::Kind::Materials);
-                                      }));
+    return diagnostics_.tolerated(
+        s.strings[0].at,
+        "unknown material " + quotedName(name) + ": the material in force stays, as in PBRT-v3" +
+            suggestFrom(name, [&] { return NameScope::names(state_.scope, NameScope::Kind::Materials); }));
   }
   state_.material = static_cast<std::int32_t>(*index);
 }
@@ -202,6 +222,13 @@ void DescriptionBuilder::light(Statement& s) {
   s.moveInto(light);
   warnIfAnimated(s);
   light.ctm = state_.ctm;
+  if (light.ctm->start.isSingular()) {
+    // What shines from a point needs the place alone.
+    const Matrix4& m = light.ctm->start.matrix();
+    if (light.type != "point" || m.m[3] != std::array<double, 4>{0, 0, 0, 1}) return;
+    const Transform place = Transform::translate({m.m[0][3], m.m[1][3], m.m[2][3]});
+    light.ctm = std::make_shared<const TransformPair>(TransformPair{place, place});
+  }
   light.media = mediaHere(s.at);
   scene_.lights.push_back(std::move(light));
 }
@@ -215,7 +242,26 @@ void DescriptionBuilder::areaLight(Statement& s) {
   s.moveInto(scene_.areaLights.emplace_back());
 }
 
+/// Whether the statement is a mesh that the CTM maps into a plane, where PBRT-v3 shows it.
+bool DescriptionBuilder::isPressedFlat(const Statement& s) const {
+  constexpr std::array<std::string_view, 5> kMeshes{"trianglemesh", "plymesh", "loopsubdiv", "heightfield",
+                                                    "nurbs"};
+  if (state_.ctm->isAnimated() ||
+      std::find(kMeshes.begin(), kMeshes.end(), s.strings[0].text) == kMeshes.end())
+    return false;
+  const auto& m = state_.ctm->start.matrix().m;
+  if (m[3] != std::array<double, 4>{0, 0, 0, 1}) return false;
+  const auto column = [&](std::size_t i) { return Vec3d{m[0][i], m[1][i], m[2][i]}; };
+  constexpr double kParallel = 1e-9;  // sine of two columns that still span a plane
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3d a = column(i), b = column((i + 1) % 3);
+    if (length(cross(a, b)) > kParallel * length(a) * length(b)) return true;
+  }
+  return false;
+}
+
 void DescriptionBuilder::shape(Statement& s) {
+  if (isOutOfSight() && !isPressedFlat(s)) return;
   ShapeDescription shape;
   s.moveInto(shape);
   shape.ctm = state_.ctm;

@@ -70,8 +70,8 @@ bool SpectrumValues::fromFiles(Param& param, const InputFolders& folders, const 
       continue;
     }
     const SourceLocation at = param.locationOf(i);
-    const auto found = names[i].empty() ? std::nullopt : folders.locate(names[i]);
-    if (!found) {
+    const auto found = folders.locate(names[i]);
+    if (!found || !found->canBeOpened()) {
       diagnostics_.tolerated(at, what + "there is no file \"" + shown(folders.underBase(names[i]).string()) +
                                      "\"; black is taken, as in PBRT-v3");
       colours.emplace_back();
@@ -83,7 +83,7 @@ bool SpectrumValues::fromFiles(Param& param, const InputFolders& folders, const 
     }
     const auto [cached, isNew] = spectra_.try_emplace(found->path);
     try {
-      if (isNew) cached->second = sampledSpectrumToRgb(readSpectrumFile(found->path));
+      if (isNew) cached->second = sampledSpectrumToRgb(readSpectrumFile(found->path, &diagnostics_));
     } catch (const SceneError& e) {
       const std::string place = e.location().line > 0 ? e.location().toString() + ": " : "";
       diagnostics_.tolerated(at, what + place + e.what() + "; black is taken, as in PBRT-v3");

@@ -13,13 +13,14 @@ std::string found(const Token& token) {
   return "found " + shown(token.raw);
 }
 
-[[noreturn]] void notADirective(const Token& token, const SourceLocation& at) {
+[[noreturn]] void notADirective(const TokenStream& tokens, const Token& token, const SourceLocation& at) {
+  if (token.kind == Token::Kind::Unclosed) tokens.throwUnclosed(token);
+  if (const auto missing = tokens.missingQuote(token)) throw *missing;
   double ignored;
   if (token.kind == Token::Kind::Word && parseDouble(token.raw, ignored) != NumberStatus::Ok) {
     throw SceneError(at, "unknown directive " + shown(token.raw) + explainUnknownDirective(token.raw));
   }
   std::string message = "found " + shown(token.raw) + ", expected a directive";
-  if (token.kind == Token::Kind::Unclosed) message = "the string has no closing \" on its line";
   if (token.kind == Token::Kind::Word) message += "; is it a number too many?";
   throw SceneError(at, message);
 }
@@ -41,7 +42,7 @@ std::optional<Statement> StatementReader::next() {
   Statement s;
   s.at = tokens_.locate(token);
   s.info = token.kind == Token::Kind::Word ? findDirective(token.raw) : nullptr;
-  if (!s.info) notADirective(token, s.at);
+  if (!s.info) notADirective(tokens_, token, s.at);
   s.folders = tokens_.folders(token);
   if (s.info->word) {
     const Token& word = tokens_.peek();
@@ -73,11 +74,16 @@ void StatementReader::readNumbers(Statement& s) {
   }
   for (std::size_t i = 0; i < count; ++i) {
     const Token& token = tokens_.peek();
-    NumberStatus status = NumberStatus::NotANumber;
-    if (token.kind == Token::Kind::Word) status = parseDouble(token.raw, s.numbers[i]);
-    if (status == NumberStatus::TooLarge) wrong(token, found(token) + ", which is too large");
-    if (status != NumberStatus::Ok) {
-      wrong(token, found(token) + (i > 0 ? " after " + std::to_string(i) : std::string()));
+    const bool isWord = token.kind == Token::Kind::Word;
+    if (!isWord || parseDouble(token.raw, s.numbers[i]) != NumberStatus::Ok) {
+      // What is infinite or no number is left to those who know what becomes of the transformation.
+      NumberPrefix number;
+      if (isWord) number = parseDoublePrefix(token.raw, s.numbers[i]);
+      if (number.kind == NumberPrefix::Kind::Nothing) {
+        if (const auto missing = tokens_.missingQuote(token)) throw *missing;
+        wrong(token, found(token) + (i > 0 ? " after " + std::to_string(i) : std::string()));
+      }
+      params_.looseNumbers().add(tokens_.locate(token), token.raw, number);
     }
     tokens_.take();
   }
@@ -91,9 +97,10 @@ void StatementReader::readStrings(Statement& s) {
   while (s.strings.size() < s.info->maxStrings) {
     const Token& token = tokens_.peek();
     const SourceLocation at = tokens_.locate(token);
-    if (token.kind == Token::Kind::Unclosed) throw SceneError(at, "the string has no closing \" on its line");
+    if (token.kind == Token::Kind::Unclosed) tokens_.throwUnclosed(token);
     if (token.kind != Token::Kind::String) {
       if (s.strings.size() >= s.info->minStrings) return;
+      if (const auto missing = tokens_.missingQuote(token)) throw *missing;
       throw SceneError(at, std::string(s.info->name) + ": " + found(token) + ", expected a quoted " +
                                std::string(s.info->strings));
     }

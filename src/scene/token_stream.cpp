@@ -123,6 +123,25 @@ SourceLocation TokenStream::locate(const Token& token) const {
   return {origins_[token.source].name, token.line, token.column, token.length()};
 }
 
+std::optional<SceneError> TokenStream::missingQuote(const Token& token) const {
+  const auto in =
+      std::find_if(open_.begin(), open_.end(), [&](const Open& o) { return o.origin == token.source; });
+  if (in == open_.end() || token.kind == Token::Kind::End) return std::nullopt;
+  const std::string_view line = in->lexer.lineAround(token.raw.data());
+  const auto missing = findMissingQuote(line);
+  if (!missing) return std::nullopt;
+  SourceLocation at = locate(token);
+  const auto ofToken = static_cast<std::size_t>(token.raw.data() - line.data());
+  at.column = static_cast<std::uint32_t>(at.column + missing->at - ofToken);
+  at.length = 1;
+  return SceneError(at, missing->message);
+}
+
+void TokenStream::throwUnclosed(const Token& token) const {
+  if (const auto missing = missingQuote(token)) throw *missing;
+  throw SceneError(locate(token), "the string has no closing \" on its line");
+}
+
 std::size_t TokenStream::readFloats(float* out, std::size_t most) {
   if (peeked_) return 0;
   const std::size_t count = open_.back().lexer.readFloats(out, most);
@@ -152,6 +171,16 @@ void TokenStream::skipToDirective() {
     if (token.kind == Token::Kind::Word && findDirective(token.raw)) return;
     take();
   }
+}
+
+void TokenStream::addBehindWorld(const SceneError& e, Diagnostics& diagnostics) {
+  for (;; take()) {
+    skipToDirective();
+    if (peek().kind == Token::Kind::End) break;
+    if (findDirective(peek().raw)->id == Directive::WorldBegin) return diagnostics.add(e);
+  }
+  diagnostics.tolerated(
+      e.location(), std::string(e.what()) + "; this is behind the last WorldEnd, so the rest is not read");
 }
 
 void TokenStream::dropComments(std::size_t count) {

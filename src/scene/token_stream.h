@@ -38,8 +38,15 @@ class TokenStream {
   /// Numbers that follow, see Lexer::readFloats; none when a token has been peeked.
   std::size_t readFloats(float* out, std::size_t most);
   std::size_t readInts(int* out, std::size_t most);
+  /// What to say when a quote is missing on the line of the token, whose file is still open.
+  std::optional<SceneError> missingQuote(const Token& token) const;
+  /// Throws what `missingQuote` gives, or that the string is not closed.
+  [[noreturn]] void throwUnclosed(const Token& token) const;
   /// Skips tokens, also bad ones, up to a directive or the end.
   void skipToDirective();
+  /// Reports a problem behind a WorldEnd and skips to the next WorldBegin. Without one it is tolerated:
+  /// PBRT-v3 ends there, but has rendered the worlds before it.
+  void addBehindWorld(const SceneError& e, Diagnostics& diagnostics);
 
   /// Hash of every text pushed so far, in order.
   std::uint64_t textHash() const { return textHash_; }

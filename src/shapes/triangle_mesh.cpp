@@ -99,6 +99,10 @@ TriangleMesh::TriangleMesh(Params params, const ShapePlacement& placement, std::
   if (!errors.empty()) throw std::invalid_argument(errors);
 
   const Transform& t = placement.worldFromObject;
+  if (t.isSingular()) {  // pressed flat: normals have no image, and those of the faces remain, as in PBRT-v3
+    params.N.clear();
+    params.S.clear();
+  }
   triangles_.resize(params.indices.size() / 3);
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k)

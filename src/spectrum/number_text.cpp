@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "base/diagnostics.h"
 #include "base/files.h"
@@ -44,10 +45,25 @@ std::string shown(std::string_view token) {
   return token.size() > 40 ? out + "..." : out;
 }
 
+/// The numbers among other text, as PBRT-v3 finds them: each is a run of digits, signs, points and exponents
+/// that begins with no exponent.
+void appendNumbersWithin(std::string_view token, std::vector<float>& numbers) {
+  constexpr std::string_view kFirst = "0123456789.+-", kAny = "0123456789.+-eE";
+  for (std::size_t i = token.find_first_of(kFirst); i < token.size(); i = token.find_first_of(kFirst, i)) {
+    const std::size_t end = std::min(token.find_first_not_of(kAny, i), token.size());
+    const std::string run(token.substr(i, end - i));
+    const auto value = static_cast<float>(std::strtod(run.c_str(), nullptr));
+    if (std::isfinite(value)) numbers.push_back(value);
+    i = end;
+  }
+}
+
 }  // namespace
 
-std::vector<float> parseNumberText(std::string_view text, const std::filesystem::path& shownName) {
+std::vector<float> parseNumberText(std::string_view text, const std::filesystem::path& shownName,
+                                   Diagnostics* tolerate) {
   std::vector<float> numbers;
+  bool said = false;
   std::uint32_t line = 1;
   std::size_t lineStart = 0, i = 0;
   while (i < text.size()) {
@@ -70,22 +86,36 @@ std::vector<float> parseNumberText(std::string_view text, const std::filesystem:
       const SourceLocation at{std::make_shared<const std::string>(shownName.string()), line,
                               static_cast<std::uint32_t>(start - lineStart + 1),
                               static_cast<std::uint32_t>(token.size())};
-      throw SceneError(at, "expected a finite number, found \"" + shown(token) + "\"");
+      const std::string message = "expected a finite number, found \"" + shown(token) + "\"";
+      if (tolerate == nullptr) throw SceneError(at, message);
+      if (!std::exchange(said, true)) {
+        tolerate->tolerated(at, message +
+                                    "; as in PBRT-v3 such text is skipped, here and further on, but for "
+                                    "the numbers in it");
+      }
+      appendNumbersWithin(token, numbers);
+      continue;
     }
     numbers.push_back(*number);
   }
   return numbers;
 }
 
-std::vector<SpectralSample> parseSpectrumText(std::string_view text, const std::filesystem::path& shownName) {
-  const std::vector<float> numbers = parseNumberText(text, shownName);
+std::vector<SpectralSample> parseSpectrumText(std::string_view text, const std::filesystem::path& shownName,
+                                              Diagnostics* tolerate) {
+  std::vector<float> numbers = parseNumberText(text, shownName, tolerate);
   const auto fail = [&](const std::string& message) {
     throw SceneError(SourceLocation{std::make_shared<const std::string>(shownName.string())}, message);
   };
   if (numbers.empty()) fail("a spectrum file needs pairs of wavelength and value, found no numbers");
   if (numbers.size() % 2 != 0) {
-    fail("a spectrum file needs pairs of wavelength and value, found an odd count of " +
-         std::to_string(numbers.size()) + " numbers");
+    const std::string message =
+        "a spectrum file needs pairs of wavelength and value, found an odd count of " +
+        std::to_string(numbers.size()) + " numbers";
+    if (tolerate == nullptr || numbers.size() == 1) fail(message);
+    tolerate->tolerated(SourceLocation{std::make_shared<const std::string>(shownName.string())},
+                        message + "; the last is left out, as in PBRT-v3");
+    numbers.pop_back();
   }
   std::vector<SpectralSample> samples;
   samples.reserve(numbers.size() / 2);
@@ -104,9 +134,9 @@ std::vector<SpectralSample> parseSpectrumText(std::string_view text, const std::
   return samples;
 }
 
-std::vector<SpectralSample> readSpectrumFile(const std::filesystem::path& path) {
+std::vector<SpectralSample> readSpectrumFile(const std::filesystem::path& path, Diagnostics* tolerate) {
   const FileBytes file = FileBytes::open(path, kMaxTextBytes);
-  return parseSpectrumText(file.text(), path);
+  return parseSpectrumText(file.text(), path, tolerate);
 }
 
 }  // namespace pbrtmedia

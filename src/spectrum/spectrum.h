@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/diagnostics.h"
 #include "spectrum/rgb.h"
 
 namespace pbrtmedia {
@@ -29,15 +30,19 @@ Rgb sampledSpectrumToRgb(std::vector<SpectralSample> samples);
 Rgb blackbodyToRgb(float kelvin, float scale);
 
 /// Numbers of a .spd or lens file: separated by blanks or line ends, `#` comments. Throws SceneError with
-/// line and column at the first thing that is not a finite number.
-std::vector<float> parseNumberText(std::string_view text, const std::filesystem::path& shownName);
+/// line and column at the first thing that is not a finite number. With `tolerate` what stands between runs
+/// of digits, signs, points and exponents is skipped as in PBRT-v3, and said there once.
+std::vector<float> parseNumberText(std::string_view text, const std::filesystem::path& shownName,
+                                   Diagnostics* tolerate = nullptr);
 
 /// The samples of a .spd text, in its order. Throws SceneError for no numbers, an odd count, a repeated
-/// wavelength, or what `parseNumberText` refuses.
-std::vector<SpectralSample> parseSpectrumText(std::string_view text, const std::filesystem::path& shownName);
+/// wavelength, or what `parseNumberText` refuses. With `tolerate` the last of an odd count is left out.
+std::vector<SpectralSample> parseSpectrumText(std::string_view text, const std::filesystem::path& shownName,
+                                              Diagnostics* tolerate = nullptr);
 
 /// Reads a .spd file (wavelength value pairs). Throws SceneError when it cannot be read or is not such a
 /// file.
-std::vector<SpectralSample> readSpectrumFile(const std::filesystem::path& path);
+std::vector<SpectralSample> readSpectrumFile(const std::filesystem::path& path,
+                                             Diagnostics* tolerate = nullptr);
 
 }  // namespace pbrtmedia

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Any bytes as a scene, strict and lenient; then messages, unused-parameter reports and the printer, whose
+// Any bytes as a scene, strict and not; then messages, unused-parameter reports and the printer, whose
 // output must print to itself. No file is read or written.
 #include <cstddef>
 #include <cstdint>
@@ -25,9 +25,9 @@ void read(Entity& entity, Diagnostics& diagnostics) {
   in.reportUnused();
 }
 
-void parse(std::string_view text, bool lenient) {
+void parse(std::string_view text, bool strict) {
   Diagnostics diagnostics;
-  diagnostics.strict = !lenient;
+  diagnostics.strict = strict;
   ParseOptions options;
   options.readFiles = false;
   auto scenes = parseText(text, "fuzz", "", diagnostics, options);

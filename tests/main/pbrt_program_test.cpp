@@ -270,15 +270,24 @@ TEST_F(Pbrt, ShowsEveryProblemOfASceneAtOnceAndWritesNothing) {
   EXPECT_FALSE(folder_.has("o.exr"));
 }
 
-TEST_F(Pbrt, UnknownNamesAreWarningsThatStrictMakesErrors) {
+TEST_F(Pbrt, StrictTurnsWarningsOfMistakesIntoErrors) {
   folder_.write("odd.pbrt",
                 "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"integer spam\" 16\n"
                 "WorldBegin\nMaterial \"matt\"\nShape \"blob\"\nLightSource \"infinite\"\nWorldEnd\n");
-  EXPECT_EQ(pbrt("--strict --outfile o.exr odd.pbrt").status, 1);
-  const ProcessResult r = pbrt("--lenient --outfile o.exr odd.pbrt");
-  EXPECT_EQ(r.status, 0) << r.output;
-  EXPECT_NE(r.output.find("warning"), std::string::npos);
-  EXPECT_TRUE(folder_.has("o.exr"));
+  const ProcessResult strict = pbrt("--strict --outfile o.exr odd.pbrt");
+  EXPECT_EQ(strict.status, 1);
+  EXPECT_NE(strict.output.find("error: Film \"image\": unknown parameter \"spam\""), std::string::npos)
+      << strict.output;
+  EXPECT_FALSE(folder_.has("o.exr"));
+  for (const char* options : {"", "--lenient "}) {
+    const ProcessResult r = pbrt(std::string(options) + "--outfile o.exr odd.pbrt");
+    EXPECT_EQ(r.status, 0) << r.output;
+    EXPECT_NE(r.output.find("warning: Film \"image\": unknown parameter \"spam\""), std::string::npos)
+        << r.output;
+    EXPECT_NE(r.output.find("[an error with --strict]"), std::string::npos) << r.output;
+    EXPECT_TRUE(folder_.has("o.exr"));
+    std::filesystem::remove(folder_.path() / "o.exr");
+  }
 }
 
 TEST_F(Pbrt, RefusesAnOutputThatCouldNotBeWrittenBeforeRendering) {
@@ -499,6 +508,17 @@ TEST_F(Pbrt, MediumParametersOfTheCommandLineAreCheckedAndMustFindAMedium) {
   EXPECT_NE(none.output.find("the scene has no medium with a density field: nothing was set"),
             std::string::npos)
       << none.output;
+}
+
+TEST_F(Pbrt, CatPrintsWhatIsTolerated) {
+  folder_.write(
+      "a.pbrt",
+      "LookAt 0, 0, -4,  0, 0, 0,  0, 1, 0\nWorldBegin\nShape \"sphere\" \"float radius\" 0x2\nWorldEnd\n");
+  const ProcessResult r = pbrt("--cat a.pbrt 2> said.txt");
+  EXPECT_EQ(r.status, 0) << r.output;
+  EXPECT_NE(r.output.find("LookAt 0 0 -4 0 0 0 0 1 0\n"), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("\"float radius\" [ 2 ]"), std::string::npos) << r.output;
+  EXPECT_EQ(pbrt("--cat --strict a.pbrt").status, 1);
 }
 
 TEST_F(Pbrt, CatSaysWhenItCannotWrite) {

@@ -32,6 +32,15 @@ struct CorpusScene {
 
 /// A sphere in the middle of the image, its inner blocks (1, 1) to (2, 2) covered, the corners free.
 inline const std::string kBall = "Translate 0 0 4 Shape \"sphere\"\n";
+inline const std::string kRed = "Material \"matte\" \"rgb Kd\" [ .8 .1 .1 ]\n";
+/// The frame that a text without WorldBegin gets, up to its end.
+inline const std::string kCamera =
+    "Camera \"perspective\" \"float fov\" 40\nWorldBegin\nLightSource \"infinite\" \"rgb L\" [ .5 .5 .5 ]\n";
+/// The same for a boundary without material.
+inline const std::string kVolpath = "Integrator \"volpath\"\n" + kCamera + "Material \"\"\n";
+inline const std::string kCommas =
+    "LookAt 0, 0, -4,  0, 0, 0,  0, 1, 0\nCamera \"perspective\" \"float fov\" 40,\nWorldBegin\n"
+    "LightSource \"infinite\" \"rgb L\" [ .5, .5, .5 ]\nShape \"sphere\"\nWorldEnd\n";
 /// What a block shows of the ball by default (Kd 0.5), and of the sky.
 inline constexpr std::array<double, 3> kGrey{.25, .25, .25}, kSky{.5, .5, .5};
 /// The image of `kBall` alone.
@@ -46,6 +55,103 @@ inline std::vector<CorpusScene> corpus() {
   return {
       // ---- Text and graphics state.
       {"ball", kBall, "", kBallOnly},
+      {"commas", kCommas, "the \",\" behind it", kBallOnly},
+      {"junk-behind-number", "Translate 0 0 4.0f Shape \"sphere\"", "the \"f\" behind it", kBallOnly},
+      {"hexadecimal", "Translate 0 0 0x4 Shape \"sphere\"", "hexadecimal", kBallOnly},
+      {"infinity", "Translate 0 0 4 Shape \"sphere\" \"float zmax\" inf", "largest number", kBallOnly},
+      {"end-order",
+       "AttributeBegin ObjectBegin \"o\" Shape \"sphere\" AttributeEnd ObjectEnd Translate 0 0 4 "
+       "ObjectInstance \"o\"",
+       "still open", kBallOnly},
+      {"transform-end-order",
+       "AttributeBegin TransformBegin Translate 9 9 9 AttributeEnd TransformEnd " + kBall, "still open",
+       kBallOnly},
+      {"end-without-begin", "AttributeEnd TransformEnd ObjectEnd " + kBall, "without", kBallOnly},
+      {"begin-without-end", "AttributeBegin " + kBall, "without AttributeEnd", kBallOnly},
+      {"object-in-object", "ObjectBegin \"a\" ObjectBegin \"b\" ObjectEnd " + kBall + " ObjectEnd",
+       "inside the definition", kBallOnly},
+      {"object-of-itself",
+       "ObjectBegin \"a\" " + kBall + " ObjectInstance \"a\" ObjectEnd ObjectInstance \"a\"",
+       "contain itself", kBallOnly},
+      {"object-unknown", "ObjectInstance \"tree\" " + kBall, "unknown object", kBallOnly},
+      {"wrong-block", "Camera \"perspective\" \"float fov\" 3 " + kBall, "belongs before WorldBegin",
+       kBallOnly},
+      {"include-missing", "Include \"nowhere.pbrt\" " + kBall, "there is no file", kBallOnly},
+      {"coordinate-system-unknown", "CoordSysTransform \"nowhere\" " + kBall, "unknown coordinate system",
+       kBallOnly},
+      {"material-unknown",
+       kRed + "NamedMaterial \"blue\" " + kBall,
+       "unknown material",
+       {{1, 1, {.4, .05, .05}}, {0, 0, kSky}}},
+      {"material-later",
+       "NamedMaterial \"red\" " + kBall + " MakeNamedMaterial \"red\" \"string type\" \"mirror\"",
+       "unknown material", kBallOnly},
+      {"material-without-type", "MakeNamedMaterial \"m\" NamedMaterial \"m\" " + kBall, "expected one",
+       kSkyOnly},
+      {"medium-undefined", kVolpath + "MediumInterface \"smok\" \"\" " + kBall + "WorldEnd",
+       "undefined medium", kSkyOnly},
+      {"medium-later",
+       kVolpath + "MediumInterface \"m\" \"\" " + kBall +
+           "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" WorldEnd",
+       "defined only at", kSkyOnly},
+      {"medium-without-type",
+       kVolpath + "MakeNamedMedium \"m\" \"rgb sigma_a\" [ 1 1 1 ] MediumInterface \"m\" \"\" " + kBall +
+           "WorldEnd",
+       "expected one", kSkyOnly},
+      {"singular-shape",
+       "AttributeBegin Scale 0 0 0 Shape \"sphere\" \"float radius\" 99 AttributeEnd " + kBall, "no inverse",
+       kBallOnly},
+      {"singular-instance",
+       "ObjectBegin \"o\" Shape \"sphere\" \"float radius\" 99 ObjectEnd AttributeBegin Scale 1 0 1 "
+       "ObjectInstance \"o\" AttributeEnd " +
+           kBall,
+       "no inverse", kBallOnly},
+      {"singular-quadric",
+       "AttributeBegin Translate 0 0 2 Scale 1 1 0 Shape \"sphere\" \"float radius\" 99 AttributeEnd " +
+           kBall,
+       "no inverse", kBallOnly},
+      {"mesh-pressed-flat",
+       "Translate 0 0 4 Scale 1 1 0 Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ "
+       "-9 -9 -1  9 -9 1  9 9 1  -9 9 -1 ] \"normal N\" [ 1 0 -1  1 0 -1  1 0 -1  1 0 -1 ]",
+       "no inverse",
+       {{0, 0, kGrey}, {1, 2, kGrey}, {3, 3, kGrey}}},
+      {"number-none",
+       "AttributeBegin Translate nan 0 0 Shape \"sphere\" \"float radius\" 99 AttributeEnd " + kBall,
+       "not finite", kBallOnly},
+      {"view-parallel-to-up", "LookAt 0 0 0  0 1 0  0 1 0 " + kBall, "parallel", kBallOnly},
+      {"times-backwards",
+       "TransformTimes 1 0 " + kCamera + "ActiveTransform EndTime Translate 99 0 0 ActiveTransform All " +
+           kBall + "WorldEnd",
+       "lies before the start", kBallOnly},
+      {"value-of-wrong-type", "Translate 0 0 4 Shape \"sphere\" \"float radius\" \"2\"", "expected a number",
+       kBallOnly},
+      {"type-unknown", "Translate 0 0 4 Shape \"sphere\" \"int radius\" 2", "unknown type", kBallOnly},
+      {"kind-wrong", "Translate 0 0 4 Shape \"sphere\" \"integer radius\" 2", "found type integer",
+       kBallOnly},
+      {"several-values", "Translate 0 0 4 Shape \"sphere\" \"float radius\" [ 2 3 ]", "found 2 values",
+       kBallOnly},
+      {"parameter-unknown", "Translate 0 0 4 Shape \"sphere\" \"float radios\" 2", "unknown parameter",
+       kBallOnly},
+      {"name-missing", "Translate 0 0 4 Shape \"sphere\" \"float\" 2", "expected a parameter", kBallOnly},
+      {"numbers-too-many",
+       "Material \"matte\" \"rgb Kd\" [ .8 .1 .1 .3 ] " + kBall,
+       "expected a multiple of 3",
+       {{1, 1, {.4, .05, .05}}}},
+      {"bool-unknown",
+       "ReverseOrientation AreaLightSource \"diffuse\" \"rgb L\" [ 3 3 3 ] \"bool twosided\" \"True\" " +
+           kBall,
+       "takes it as false", kBallOnly},
+      {"spectrum-file-missing",
+       "Material \"matte\" \"spectrum Kd\" \"nowhere.spd\" " + kBall,
+       "there is no file",
+       {{1, 1, {0, 0, 0}}, {0, 0, kSky}}},
+      {"flavour-unknown", "Texture \"t\" \"colour\" \"constant\" " + kBall, "unknown flavour", kBallOnly},
+      {"shape-unknown", "Shape \"sfere\" " + kBall, "unknown type", kBallOnly},
+      {"material-type-unknown",
+       "Material \"mate\" \"rgb Kd\" [ .8 .1 .1 ] " + kBall,
+       "unknown type",
+       {{1, 1, {.4, .05, .05}}}},
+      {"text-behind-world", kCamera + kBall + "WorldEnd\n% end of file", "unknown directive", kBallOnly},
 
       // ---- Media and their boundaries.
 
@@ -150,6 +256,7 @@ inline std::vector<CorpusScene> corpus() {
 inline std::vector<const char*> renderedCases() {
   return {
       // ---- Text and graphics state.
+      "commas", "end-order", "named-material-unknown", "singular-transform",
 
       // ---- Media and their boundaries.
       "medium-of-instance-direct",

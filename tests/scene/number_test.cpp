@@ -189,6 +189,89 @@ TEST(Number, AcceptsTheUsualFormsAndNothingElse) {
   }
 }
 
+/// Value and length of what strtof reads.
+void expectPrefixAsStrtof(const std::string& text) {
+  float value = -7;
+  const NumberPrefix prefix = parseFloatPrefix(text, value);
+  char* end = nullptr;
+  const float expected = std::strtof(text.c_str(), &end);
+  const auto length = static_cast<std::size_t>(end - text.c_str());
+  if (prefix.kind == NumberPrefix::Kind::NotANumber) {
+    ASSERT_TRUE(std::isnan(expected) && std::isnan(value)) << text;
+    return;  // strtof takes nan(…) as a whole
+  }
+  ASSERT_EQ(prefix.length, length) << text;
+  if (length == 0) {
+    ASSERT_EQ(prefix.kind, NumberPrefix::Kind::Nothing) << text;
+    return;
+  }
+  ASSERT_EQ(std::isinf(expected), prefix.kind == NumberPrefix::Kind::Infinite) << text;
+  // Numbers below the smallest normal one are 0 here.
+  if (std::abs(expected) < std::numeric_limits<float>::min()) {
+    ASSERT_LT(std::abs(value), std::numeric_limits<float>::min()) << text;
+  } else {
+    ASSERT_EQ(value, expected) << text;
+  }
+}
+
+TEST(Number, PrefixesAreThoseOfStrtof) {
+  for (const char* text : {"",
+                           "+",
+                           "-",
+                           ".",
+                           "1",
+                           "1.5abc",
+                           "1,2",
+                           "5#x",
+                           "1e",
+                           "1e+",
+                           "1e+5x",
+                           "1.2.3",
+                           "..5",
+                           ".5.",
+                           "-.",
+                           "--1",
+                           "x1",
+                           "0x10",
+                           "0X1.8p1",
+                           "0x",
+                           "0xg",
+                           "0x.",
+                           "0x.8",
+                           "-0x1p-2q",
+                           "0x1p",
+                           "0x1p+",
+                           "0x1p999999",
+                           "0x1p-999999",
+                           "inf",
+                           "-Infinity",
+                           "infinit",
+                           "INFx",
+                           "in",
+                           "nan",
+                           "-NaN",
+                           "nano",
+                           "nan(1)",
+                           "na",
+                           "1e39",
+                           "-1e999,",
+                           "1e-60",
+                           "1e-999f",
+                           "3.4028235e38",
+                           "3.4028236e38",
+                           "0x1.fffffep127",
+                           "0x1.ffffffp127"}) {
+    expectPrefixAsStrtof(text);
+  }
+  std::mt19937_64 random(23);
+  constexpr std::string_view kAlphabet = "0011259..+--eExXpPabfinI,#";
+  for (int i = 0; i < 300000; ++i) {
+    std::string text;
+    for (std::uint64_t k = random() % 12; k > 0; --k) text += kAlphabet[random() % kAlphabet.size()];
+    expectPrefixAsStrtof(text);
+  }
+}
+
 TEST(Number, LexerReadsRunsAndStopsBeforeAnythingElse) {
   const std::string text = "1 2.5\n-3e2\t4]5";
   Lexer lexer(text, 0, false);

@@ -16,16 +16,16 @@ struct Parsed {
   SceneDescription& scene() { return scenes.at(0); }
 };
 
-inline Parsed parse(std::string_view text, bool lenient = false) {
+inline Parsed parse(std::string_view text, bool strict = false) {
   Parsed p;
-  p.diagnostics.strict = !lenient;
+  p.diagnostics.strict = strict;
   p.scenes = parseText(text, "t.pbrt", "", p.diagnostics);
   return p;
 }
 
 /// The text between WorldBegin and WorldEnd, in line 2 and following.
-inline Parsed parseWorld(std::string_view text, bool lenient = false) {
-  return parse("WorldBegin\n" + std::string(text) + "\nWorldEnd\n", lenient);
+inline Parsed parseWorld(std::string_view text, bool strict = false) {
+  return parse("WorldBegin\n" + std::string(text) + "\nWorldEnd\n", strict);
 }
 
 }  // namespace pbrtmedia

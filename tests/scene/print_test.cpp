@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <random>
+#include <span>
 #include <sstream>
+#include <string>
 
 #include "base/files.h"
 #include "scene/parse.h"
@@ -64,6 +68,69 @@ TEST(Print, WhatIsPrintedParsesToTheSameAndPrintsTheSame) {
     std::getline(lines, line);
     EXPECT_LE(line.size(), 102u);
   }
+}
+
+TEST(Print, WhatIsToleratedComesOutAsItIsRead) {
+  std::ostringstream out;
+  Diagnostics d;
+  printText(
+      "LookAt 0, 0, -4,  0, 0, 0,  0, 1, 0\nTranslate nan 0 -inf Film \"image\" \"rgb L\" [.5, .5, .5] \"int "
+      "n\" 3 \"float "
+      "f\" [0x10 2f] \"float g\" inf \"float s\" \"x\"\nWorldBegin AttributeEnd WorldEnd % the end",
+      "t.pbrt", "", out, d);
+  EXPECT_FALSE(d.hasErrors()) << d.format();
+  EXPECT_EQ(
+      out.str(),
+      "LookAt 0 0 -4 0 0 0 0 1 0\nTranslate nan 0 -inf\nFilm \"image\"\n    \"rgb L\" [ 0.5 0.5 0.5 ]\n"
+      "    \"float f\" [ 16 2 ]\n    \"float g\" [ 3.4028235e+38 ]\n\nWorldBegin\nAttributeEnd\nWorldEnd\n");
+  std::ostringstream again;
+  printText(out.str(), "t.pbrt", "", again, d);
+  EXPECT_EQ(again.str(), out.str());
+}
+
+TEST(Print, OddScenesAreStableAfterOnePrinting) {
+  std::mt19937_64 random(29);
+  const auto pick = [&](std::span<const std::string_view> from) {
+    return std::string(from[random() % from.size()]);
+  };
+  constexpr std::string_view kNumbers[] = {"0",   "1,",   "-2.5f", "0x1F", "1e",   "3#x",   "1e39", "inf",
+                                           "nan", "-nan", "-inf",  "1.5",  "7;8,", "1e-50", "+4",   "0x1p-3"};
+  constexpr std::string_view kStrings[] = {R"("a")", R"("")", R"("true")", R"("a\"b")", R"("float x")"};
+  constexpr std::string_view kTypes[] = {"float",  "integer", "int",     "rgb", "point",  "bool",
+                                         "string", "",        "texture", "xyz", "normal", "vector2"};
+  constexpr std::string_view kTransforms[] = {"Translate", "Scale",  "ConcatTransform",
+                                              "LookAt",    "Rotate", "TransformTimes"};
+  constexpr std::size_t kCounts[] = {3, 3, 16, 9, 4, 2};
+  std::size_t printed = 0;
+  for (int round = 0; round < 20000; ++round) {
+    std::string text;
+    for (std::uint64_t k = 1 + random() % 3; k > 0; --k) {
+      if (random() % 2 == 0) {
+        const std::size_t which = random() % std::size(kTransforms);
+        text += std::string(kTransforms[which]) + (kCounts[which] == 16 ? " [" : " ");
+        for (std::size_t i = 0; i < kCounts[which]; ++i) text += pick(kNumbers) + ' ';
+        text += kCounts[which] == 16 ? "]\n" : "\n";
+        continue;
+      }
+      text += "Film \"image\" ";
+      for (std::uint64_t n = random() % 3; n > 0; --n) {
+        text += '"' + pick(kTypes) + " p" + std::to_string(n) + (random() % 8 == 0 ? " more\" [" : "\" [");
+        const bool strings = random() % 3 == 0;
+        for (std::uint64_t v = random() % 5; v > 0; --v)
+          text += ' ' + (strings ? pick(kStrings) : pick(kNumbers));
+        text += " ]\n";
+      }
+    }
+    std::ostringstream once, twice;
+    Diagnostics first, second;
+    printText(text, "t.pbrt", "", once, first);
+    if (first.hasErrors()) continue;
+    ++printed;
+    printText(once.str(), "t.pbrt", "", twice, second);
+    ASSERT_FALSE(second.hasErrors()) << text << "\n" << second.format();
+    ASSERT_EQ(once.str(), twice.str()) << text;
+  }
+  EXPECT_GT(printed, 4000u);  // else nothing was tested
 }
 
 TEST(Print, StopsAtAStatementThatCannotBeRead) {

@@ -57,6 +57,19 @@ TEST(NumberText, PointsAtTheFirstThingThatIsNoFiniteNumber) {
   expectFailsAt(std::string_view("1 \0 2", 5), 1, 3, 1);
 }
 
+TEST(NumberText, TextAmongNumbersMayBeSkippedAndIsSaidOnce) {
+  Diagnostics d;
+  const std::string_view text = "400, 0.5;\nnm 500 1.5e1x 3e39 abc-2";
+  EXPECT_EQ(parseNumberText(text, "a.spd", &d), (std::vector<float>{400, 0.5f, 500, 15, -2}));
+  ASSERT_EQ(d.all().size(), 1u) << d.format();
+  EXPECT_EQ(d.all()[0].severity, Severity::Warning);
+  EXPECT_EQ(d.all()[0].location.toString(), "a.spd:1:1");
+  Diagnostics strict;
+  strict.strict = true;
+  parseNumberText(text, "a.spd", &strict);
+  EXPECT_EQ(strict.errorCount(), 1u);
+}
+
 TEST(NumberText, ShowsOnlyPrintableTextInMessages) {
   try {
     parseNumberText("\x1b[31m\xff", "a.spd");
@@ -79,6 +92,15 @@ TEST(SpectrumText, RefusesOddCountsRepeatsAndEmptyFiles) {
   EXPECT_THROW(parseSpectrumText("400 1 500", "a.spd"), SceneError);
   EXPECT_THROW(parseSpectrumText("400 1 500 2 400 3", "a.spd"), SceneError);
   EXPECT_THROW(parseSpectrumText("# only a comment\n", "a.spd"), SceneError);
+}
+
+TEST(SpectrumText, TheLastOfAnOddCountMayBeLeftOut) {
+  Diagnostics d;
+  EXPECT_EQ(parseSpectrumText("400 1 500", "a.spd", &d).size(), 1u);
+  EXPECT_EQ(d.all().size(), 1u);
+  EXPECT_THROW(parseSpectrumText("400", "a.spd", &d), SceneError);
+  EXPECT_THROW(parseSpectrumText("", "a.spd", &d), SceneError);
+  EXPECT_THROW(parseSpectrumText("400 1 400 2", "a.spd", &d), SceneError);
 }
 
 TEST(SpectrumFile, IsReadFromDiskAndMissingFilesAreNamed) {
