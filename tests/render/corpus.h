@@ -79,14 +79,14 @@ inline std::vector<CorpusScene> corpus() {
       {"include-missing", "Include \"nowhere.pbrt\" " + kBall, "there is no file", kBallOnly},
       {"coordinate-system-unknown", "CoordSysTransform \"nowhere\" " + kBall, "unknown coordinate system",
        kBallOnly},
-      {"material-unknown",
+      {"named-material-unknown",
        kRed + "NamedMaterial \"blue\" " + kBall,
        "unknown material",
        {{1, 1, {.4, .05, .05}}, {0, 0, kSky}}},
-      {"material-later",
+      {"named-material-later",
        "NamedMaterial \"red\" " + kBall + " MakeNamedMaterial \"red\" \"string type\" \"mirror\"",
        "unknown material", kBallOnly},
-      {"material-without-type", "MakeNamedMaterial \"m\" NamedMaterial \"m\" " + kBall, "expected one",
+      {"named-material-without-type", "MakeNamedMaterial \"m\" NamedMaterial \"m\" " + kBall, "expected one",
        kSkyOnly},
       {"medium-undefined", kVolpath + "MediumInterface \"smok\" \"\" " + kBall + "WorldEnd",
        "undefined medium", kSkyOnly},
@@ -141,16 +141,7 @@ inline std::vector<CorpusScene> corpus() {
        "ReverseOrientation AreaLightSource \"diffuse\" \"rgb L\" [ 3 3 3 ] \"bool twosided\" \"True\" " +
            kBall,
        "takes it as false", kBallOnly},
-      {"spectrum-file-missing",
-       "Material \"matte\" \"spectrum Kd\" \"nowhere.spd\" " + kBall,
-       "there is no file",
-       {{1, 1, {0, 0, 0}}, {0, 0, kSky}}},
       {"flavour-unknown", "Texture \"t\" \"colour\" \"constant\" " + kBall, "unknown flavour", kBallOnly},
-      {"shape-unknown", "Shape \"sfere\" " + kBall, "unknown type", kBallOnly},
-      {"material-type-unknown",
-       "Material \"mate\" \"rgb Kd\" [ .8 .1 .1 ] " + kBall,
-       "unknown type",
-       {{1, 1, {.4, .05, .05}}}},
       {"text-behind-world", kCamera + kBall + "WorldEnd\n% end of file", "unknown directive", kBallOnly},
 
       // ---- Media and their boundaries.
@@ -256,7 +247,10 @@ inline std::vector<CorpusScene> corpus() {
 inline std::vector<const char*> renderedCases() {
   return {
       // ---- Text and graphics state.
-      "commas", "end-order", "named-material-unknown", "singular-transform",
+      "commas",
+      "end-order",
+      "named-material-unknown",
+      "singular-transform",
 
       // ---- Media and their boundaries.
       "medium-of-instance-direct",
