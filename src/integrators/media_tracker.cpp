@@ -237,10 +237,19 @@ bool MediaTracker::emits(const MediumState& state) {
   return false;
 }
 
-EmissionDistance MediaTracker::sampleEmission(const MediumState& state, std::size_t i, const Ray& ray,
-                                              double tMin, double tMax, Rng& rng, RenderCounters& counters) {
+EmissionSamples MediaTracker::sampleEmission(const MediumState& state, std::size_t i, const Ray& ray,
+                                             double tMin, double tMax, Rng& rng, RenderCounters& counters) {
   const PlacedMedium m = state.active(i);
-  return m.medium->sampleEmission(segmentOf(m, ray, tMin, tMax), rng, counters);
+  EmissionSamples found = m.medium->sampleEmission(segmentOf(m, ray, tMin, tMax), rng, counters);
+  for (std::size_t s = 0; s < found.count; ++s) {
+    auto& [t, radiance] = found.samples[s];
+    for (std::size_t other = 0; other < state.activeCount() && !radiance.isBlack(); ++other) {
+      if (other == i) continue;
+      const PlacedMedium o = state.active(other);
+      radiance *= o.medium->transmittance(segmentOf(o, ray, tMin, t), rng, counters);
+    }
+  }
+  return found;
 }
 
 Point3f MediaTracker::scatterPoint(const Ray& ray, double t, const BoundaryPlane& start,

@@ -86,9 +86,10 @@ class MediaTracker {
   static bool isExponential(const MediumState& state);
   /// Whether some active medium emits.
   static bool emits(const MediumState& state);
-  /// A point of the segment chosen where active medium number `i` emits.
-  static EmissionDistance sampleEmission(const MediumState& state, std::size_t i, const Ray& ray, double tMin,
-                                         double tMax, Rng& rng, RenderCounters& counters);
+  /// Points of the segment chosen where active medium number `i` emits, with what all media let through of
+  /// it.
+  static EmissionSamples sampleEmission(const MediumState& state, std::size_t i, const Ray& ray, double tMin,
+                                        double tMax, Rng& rng, RenderCounters& counters);
   /// The point at `t`, in single precision. When rounding may have put it beyond the boundary at an end of
   /// its segment it is moved back to the right side, by some float spacings; being beyond counts as a repair.
   static Point3f scatterPoint(const Ray& ray, double t, const BoundaryPlane& start, const BoundaryPlane& end,

@@ -31,29 +31,33 @@ double volumeScale(const Transform& mediaFromWorld) {
 MediumLight::MediumLight(const PlacedMedium& medium, const EmissionVolume& volume)
     : medium_(medium), volume_(volume) {}
 
-LightSample MediumLight::sample(Point3f reference, Point2f u) const {
-  return sample(reference, u, -kInfinity);
+Vec3d MediumLight::pointAt(Point2f u, float time) const {
+  const Vec3d p(volume_.sample(refine(u)));
+  return medium_.placement ? medium_.placement->mediaFromWorld(time).inverse().point(p) : p;
 }
 
-LightSample MediumLight::sample(Point3f reference, Point2f u, float time) const {
+LightSample MediumLight::sample(Point3f reference, Point2f u) const {
   LightSample s;
-  const EmissionVolume::Sample at = volume_.sample(refine(u));
-  Vec3d p(at.p);
-  double pdf = at.pdf;
-  if (medium_.placement) {
-    const Transform mediaFromWorld = medium_.placement->mediaFromWorld(time);
-    p = mediaFromWorld.inverse().point(p);
-    pdf *= volumeScale(mediaFromWorld);
-  }
-  const Vec3d d = p - Vec3d(reference);
+  const Vec3d d = pointAt(u, -kInfinity) - Vec3d(reference);
   const double squared = lengthSquared(d);
   if (!(squared > 0)) return s;
-  const double r = std::sqrt(squared);
-  RenderCounters uncounted;  // this interface counts nothing
-  s.wi = Vector3f(d / r);
-  s.distance = static_cast<float>(r);
-  s.pdf = static_cast<float>(pdf * squared);
-  s.radiance = medium_.medium->at(at.p, uncounted).emission;
+  s.wi = Vector3f(d / std::sqrt(squared));
+  s.distance = static_cast<float>(std::sqrt(squared));
+  s.pdf = 1;
+  s.radiance = power() * static_cast<float>(1 / (4 * double{kPi} * squared));
+  return s;
+}
+
+LightSample MediumLight::sampleDirection(Point3f reference, Point2f u, float time) const {
+  LightSample s;
+  const Vec3d d = pointAt(u, time) - Vec3d(reference);
+  const double squared = lengthSquared(d);
+  if (!(squared > 0)) return s;
+  s.wi = Vector3f(d / std::sqrt(squared));
+  const auto where = span(reference, s.wi, time);
+  if (!where) return s;  // it has only been grazed
+  s.distance = std::nextafter(static_cast<float>(where->tMax), kInfinity);
+  s.pdf = static_cast<float>(directionPdf(reference, s.wi, time));
   return s;
 }
 
@@ -63,20 +67,21 @@ Rgb MediumLight::power() const {
   return total / static_cast<float>(volumeScale(medium_.placement->mediaFromWorld(-kInfinity)));
 }
 
-double MediumLight::pdfAt(Point3f reference, Vector3f wi, double t, float time) const {
-  const Segment world{reference, wi, 0, t};
-  if (!medium_.placement) return volume_.pdf(world.at(t)) * t * t;
-  const double scale = volumeScale(medium_.placement->mediaFromWorld(time));
-  return volume_.pdf(medium_.placement->toObject(world, time).at(t)) * scale * t * t;
+Segment MediumLight::lineOf(Point3f reference, Vector3f wi, float time) const {
+  const Segment line{reference, wi, 0, static_cast<double>(kInfinity)};
+  return medium_.placement ? medium_.placement->toObject(line, time) : line;
 }
 
-double MediumLight::distancePdf(Point3f reference, Vector3f wi, double t, float time) const {
-  Segment segment{reference, wi, 0, static_cast<double>(kInfinity)};
-  if (medium_.placement) segment = medium_.placement->toObject(segment, time);
-  const auto span = clipToBox(Bounds3d{Vec3d(volume_.bounds().min), Vec3d(volume_.bounds().max)},
-                              Vec3d(segment.o), Vec3d(segment.d), segment.tMin, segment.tMax);
-  if (!span) return 0;
-  return medium_.medium->emissionDistancePdf({segment.o, segment.d, span->tMin, span->tMax}, t);
+double MediumLight::directionPdf(Point3f reference, Vector3f wi, float time) const {
+  const double density = volume_.directionDensity(lineOf(reference, wi, time));
+  if (!medium_.placement) return density;
+  return density * volumeScale(medium_.placement->mediaFromWorld(time));
+}
+
+std::optional<Span<double>> MediumLight::span(Point3f reference, Vector3f wi, float time) const {
+  const Segment line = lineOf(reference, wi, time);
+  return clipToBox(Bounds3d{Vec3d(volume_.bounds().min), Vec3d(volume_.bounds().max)}, Vec3d(line.o),
+                   Vec3d(line.d), line.tMin, line.tMax);
 }
 
 std::vector<MediumEmitter> mediumEmittersOf(std::span<const Primitive* const> primitives, bool inObject) {

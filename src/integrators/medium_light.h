@@ -15,11 +15,11 @@
 
 namespace pbrtmedia {
 
-/// An emissive medium where it is placed, as a source of light: points inside it, chosen where it emits. Its
-/// densities are per solid angle and length, as what a direction meets is a stretch and no point, and the
-/// radiance of a sample is what the medium emits per length there. Whether the medium is present at the point
-/// at all is for the caller to see: boundaries say so. References and directions are in the world, at a time
-/// of the scene where the placement moves.
+/// An emissive medium where it is placed, as a source of light: directions toward points inside it, chosen
+/// where it emits. What arrives from a direction is for the caller to find out (shadowEmission), by distance
+/// along it, as it does for scattered rays: light then comes from where the medium lets it out, however dense
+/// it is, and light samples and hits of scattered rays differ in nothing but the density of their directions.
+/// References and directions are in the world, at a time of the scene where the placement moves.
 class MediumLight final : public Light {
  public:
   /// `volume` is that of `medium.medium`, in the space of its definition; borrowed.
@@ -27,22 +27,27 @@ class MediumLight final : public Light {
 
   std::string_view typeName() const override { return "medium"; }
   bool isDelta() const override { return false; }
-  /// At the time at which movements start: for the selection of lights.
+  /// For the selection of lights: of a light at one of the points that has the power of all, at the time at
+  /// which movements start.
   LightSample sample(Point3f reference, Point2f u) const override;
-  /// `u` gives two of the three coordinates and chooses the cell; the rest is hashed from it.
-  LightSample sample(Point3f reference, Point2f u, float time) const;
-  /// A direction alone has no density here: see the two below.
   float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
   Rgb power() const override;
 
-  /// Density of `sample(reference, .)` for the point `t` along unit `wi`, per solid angle and length.
-  double pdfAt(Point3f reference, Vector3f wi, double t, float time) const;
-  /// Density per length that a ray from `reference` along `wi` is taken to have for finding emission at `t`,
-  /// for weights: of Medium::sampleEmission if nothing but the medium's own bounds cut the ray.
-  double distancePdf(Point3f reference, Vector3f wi, double t, float time) const;
+  /// A direction, its density per solid angle and the distance behind which nothing emits; no radiance.
+  /// `u` gives two of the three coordinates of a point and chooses the cell; the rest is hashed from it.
+  LightSample sampleDirection(Point3f reference, Point2f u, float time) const;
+  /// Its density for unit `wi`.
+  double directionPdf(Point3f reference, Vector3f wi, float time) const;
+  /// Where light samples look for emission along unit `wi`.
+  std::optional<Span<double>> span(Point3f reference, Vector3f wi, float time) const;
   const PlacedMedium& medium() const { return medium_; }
 
  private:
+  /// A point of the volume in the world.
+  Vec3d pointAt(Point2f u, float time) const;
+  /// A line from `reference` in the space of the medium's definition.
+  Segment lineOf(Point3f reference, Vector3f wi, float time) const;
+
   PlacedMedium medium_;
   const EmissionVolume& volume_;
 };

@@ -78,11 +78,11 @@ class PathTracer {
     LightSample sample;  ///< pdf includes the probability of the pick
   };
   std::optional<PickedLight> pickLight(Point3f p, bool scatteringFindsUniformLights);
-  Rgb unoccluded(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state);
-  float lightWeight(const PickedLight& light, Point3f p, float directionPdf) const;
+  Rgb arriving(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state);
+  float lightWeight(const PickedLight& light, float directionPdf) const;
   float collisionShare(std::size_t light, Point3f p) const;
   float emissionWeight(std::size_t light, const SurfaceInteraction* si) const;
-  float mediumEmissionWeight(const PlacedMedium& medium, double t) const;
+  float mediumEmissionWeight(const MediumLight& source, std::size_t light) const;
   SurfaceInteraction surfaceAt(const SceneHit& hit) const;
   void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, PrimitiveId start);
   bool seesOnlyEmission() const { return bounces_ >= setup_.params.maxDepth; }

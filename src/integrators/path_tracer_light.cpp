@@ -18,41 +18,37 @@ std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool sca
   const Point2f u = samples_.get2D();
   if (skips(choice.light)) return std::nullopt;
   const MediumLight* const emitter = setup_.scene.mediumLight(choice.light);
-  PickedLight picked{choice.light,
-                     emitter ? emitter->sample(p, u, ray_.time) : lights[choice.light]->sample(p, u)};
-  if (!(picked.sample.pdf > 0) || picked.sample.radiance.isBlack()) return std::nullopt;
+  PickedLight picked{
+      choice.light, emitter ? emitter->sampleDirection(p, u, ray_.time) : lights[choice.light]->sample(p, u)};
+  if (!(picked.sample.pdf > 0) || (!emitter && picked.sample.radiance.isBlack())) return std::nullopt;
   picked.sample.pdf *= choice.probability;
   return picked;
 }
 
-Rgb PathTracer::unoccluded(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state) {
+/// What of a light sample's radiance arrives at `p`; of a medium, what it sends there from that direction.
+Rgb PathTracer::arriving(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state) {
   const Scene& scene = setup_.scene;
-  ShadowRay shadow = shadowRayTo(light.sample, p, ray_.time, start, scene.lightTarget(light.index));
-  if (setup_.media) {
-    const MediumLight* const emitter = scene.mediumLight(light.index);
-    if (emitter) shadow.ray.tMax = light.sample.distance;
-    MediumState end = state;
-    const Rgb through =
-        shadowTransmittance(scene, *setup_.media, shadow, end, context_.rng, counters_, context_.mismatches);
-    if (!emitter || through.isBlack()) return through;
-    // As often as the medium is there, as distances are sampled.
-    float present = 0;
-    for (std::size_t i = 0; i < end.activeCount(); ++i) {
-      if (end.active(i) == emitter->medium()) ++present;
-    }
-    return through * present;
+  const LightSample& s = light.sample;
+  ShadowRay shadow = shadowRayTo(s, p, ray_.time, start, scene.lightTarget(light.index));
+  if (!setup_.media) {
+    return scene.occluded(shadow.ray, 0, shadow.exclusions, counters_.shadowRays) ? Rgb() : s.radiance;
   }
-  return Rgb(scene.occluded(shadow.ray, 0, shadow.exclusions, counters_.shadowRays) ? 0.0f : 1.0f);
+  if (const MediumLight* const emitter = scene.mediumLight(light.index)) {
+    const auto span = emitter->span(p, s.wi, ray_.time);
+    if (!span) return {};
+    shadow.ray.tMax = s.distance;
+    return shadowEmission(scene, *setup_.media, shadow, emitter->medium(), *span, state, context_.rng,
+                          counters_, context_.mismatches);
+  }
+  MediumState end = state;
+  return s.radiance *
+         shadowTransmittance(scene, *setup_.media, shadow, end, context_.rng, counters_, context_.mismatches);
 }
 
-/// Share of a light sample at `p`; what a direction of that density finds accounts for the rest.
-float PathTracer::lightWeight(const PickedLight& light, Point3f p, float directionPdf) const {
+/// Share of a light sample; what a direction of that density finds accounts for the rest.
+float PathTracer::lightWeight(const PickedLight& light, float directionPdf) const {
   if (setup_.lights[light.index]->isDelta()) return 1;
-  const LightSample& s = light.sample;
-  if (const MediumLight* const emitter = setup_.scene.mediumLight(light.index)) {
-    directionPdf *= static_cast<float>(emitter->distancePdf(p, s.wi, double{s.distance}, ray_.time));
-  }
-  return powerHeuristic(s.pdf, directionPdf);
+  return powerHeuristic(light.sample.pdf, directionPdf);
 }
 
 /// Share of a collision's sample of a light at one point; `lightStretch` accounts for the rest.
@@ -77,13 +73,12 @@ void PathTracer::lightSurface(const Bsdf& bsdf) {
   const Rgb f = bsdf.f(si.wo, s.wi, BsdfFlags::AllButSpecular) * absDot(s.wi, bsdf.shadingNormal());
   if (f.isBlack()) return;
   const bool isDelta = setup_.lights[light->index]->isDelta();
-  const float weight = isDelta ? 1 : lightWeight(*light, si.p, bsdf.pdf(si.wo, s.wi));
+  const float weight = isDelta ? 1 : lightWeight(*light, bsdf.pdf(si.wo, s.wi));
   MediumState state = state_;
   if (setup_.media) {
     setup_.media->leaveSurface(state, surface_.hit, si, s.wi, counters_, context_.mismatches);
   }
-  radiance_ +=
-      beta_ * f * s.radiance * (weight / s.pdf) * unoccluded(*light, si.p, surface_.hit.hit.id, state);
+  radiance_ += beta_ * f * (weight / s.pdf) * arriving(*light, si.p, surface_.hit.hit.id, state);
 }
 
 void PathTracer::lightMedium() {
@@ -92,9 +87,9 @@ void PathTracer::lightMedium() {
   const LightSample& s = light->sample;
   const float phase = medium_.phase->evaluate(-ray_.d, s.wi);
   if (!(phase > 0)) return;
-  const float weight = lightWeight(*light, medium_.p, phase) * collisionShare(light->index, medium_.p);
+  const float weight = lightWeight(*light, phase) * collisionShare(light->index, medium_.p);
   if (!(weight > 0)) return;
-  radiance_ += beta_ * s.radiance * (phase * weight / s.pdf) * unoccluded(*light, medium_.p, {}, state_);
+  radiance_ += beta_ * (phase * weight / s.pdf) * arriving(*light, medium_.p, {}, state_);
 }
 
 /// Single scattering of a light at one point, at a distance chosen for that light. The flight that follows
@@ -119,20 +114,26 @@ void PathTracer::lightStretch(const PositionLights::Stretch& stretch, const Scen
   const Rgb through =
       MediaTracker::transmittance(state_, ray_, stretch.tMin, choice->t, context_.rng, counters_);
   if (through.isBlack()) return;
-  radiance_ += beta_ * through * scattered * s.radiance * static_cast<float>(1 / density) *
-               unoccluded(light, p, {}, state_);
+  radiance_ += beta_ * through * scattered * static_cast<float>(1 / density) * arriving(light, p, {}, state_);
 }
 
-/// What the media emit between two surfaces, at one distance for each that does.
+/// What the media emit between two surfaces.
 void PathTracer::collectMediumEmission(double tMin, double tMax) {
   for (std::size_t i = 0; i < state_.activeCount(); ++i) {
     const PlacedMedium m = state_.active(i);
     if (!m.medium->isEmissive()) continue;
-    const EmissionDistance e =
+    const EmissionSamples found =
         MediaTracker::sampleEmission(state_, i, ray_, tMin, tMax, context_.rng, counters_);
-    if (!(e.pdf > 0) || e.emission.isBlack()) continue;
-    const Rgb through = MediaTracker::transmittance(state_, ray_, tMin, e.t, context_.rng, counters_);
-    radiance_ += beta_ * through * e.emission * static_cast<float>(1 / e.pdf) * mediumEmissionWeight(m, e.t);
+    if (found.count == 0) continue;
+    const std::optional<std::size_t> light = isDirect_ ? std::nullopt : setup_.scene.lightOf(m);
+    const MediumLight* const source = light ? setup_.scene.mediumLight(*light) : nullptr;
+    const auto span = source ? source->span(ray_.o, ray_.d, ray_.time) : std::nullopt;
+    const float weight = span ? mediumEmissionWeight(*source, *light) : 1;
+    for (const EmissionSamples::Sample& e : found) {
+      // Light samples look inside the span only.
+      const bool isShared = span && e.t >= span->tMin && e.t <= span->tMax;
+      radiance_ += beta_ * e.radiance * (isShared ? weight : 1.0f);
+    }
   }
 }
 
@@ -146,17 +147,11 @@ float PathTracer::emissionWeight(std::size_t light, const SurfaceInteraction* si
   return powerHeuristic(directionPdf_, lightPdf);
 }
 
-/// The same for emission that a medium shows at `t` of the segment.
-float PathTracer::mediumEmissionWeight(const PlacedMedium& medium, double t) const {
-  if (isDirect_) return 1;
-  const std::optional<std::size_t> light = setup_.scene.lightOf(medium);
-  if (!light) return 1;
-  const MediumLight& source = *setup_.scene.mediumLight(*light);
+/// The same for emission of a medium, number `light` of the lights.
+float PathTracer::mediumEmissionWeight(const MediumLight& source, std::size_t light) const {
   const double lightPdf =
-      double{setup_.selector->probability(ray_.o, *light)} * source.pdfAt(ray_.o, ray_.d, t, ray_.time);
-  if (!(lightPdf > 0)) return 1;  // outside of what light samples look at
-  return powerHeuristic(static_cast<float>(directionPdf_ * source.distancePdf(ray_.o, ray_.d, t, ray_.time)),
-                        static_cast<float>(lightPdf));
+      double{setup_.selector->probability(ray_.o, light)} * source.directionPdf(ray_.o, ray_.d, ray_.time);
+  return powerHeuristic(directionPdf_, static_cast<float>(lightPdf));
 }
 
 void PathTracer::collectEmission(const SceneHit& hit, const SurfaceInteraction& si) {

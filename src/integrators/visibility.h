@@ -16,6 +16,13 @@ struct ShadowRay {
 ShadowRay shadowRayTo(const LightSample& sample, Point3f p, float time, PrimitiveId start,
                       PrimitiveId target);
 
+/// Radiance that `medium` sends along the shadow ray to its start, from where it is present inside `span`,
+/// dimmed by everything on the way: black when a surface with a material is before it. `ray.tMax` is behind
+/// the span. Unbiased. `state`: of the start.
+Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
+                   const PlacedMedium& medium, Span<double> span, MediumState state, Rng& rng,
+                   RenderCounters& counters, MismatchLog* log);
+
 /// Transmittance of the media along the shadow ray, starting in `state`: black when a surface with a material
 /// is in the way. Boundaries without material are crossed. shadowalpha does not apply (closest hits are
 /// searched). `state` is then that of the far end.

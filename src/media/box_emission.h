@@ -11,19 +11,18 @@ namespace pbrtmedia {
 class BoxEmission final : public EmissionVolume {
  public:
   /// Null when the box has no volume or no end. `emission`: sigma_a Le.
-  static std::unique_ptr<const EmissionVolume> over(const Bounds3f& box, Rgb emission);
+  static std::unique_ptr<const EmissionVolume> over(const Bounds3f& box, Rgb emission, Rgb sigmaT);
 
-  Sample sample(const std::array<double, 3>& u) const override;
-  double pdf(Point3f p) const override { return box_.contains(p) ? 1 / volume_ : 0; }
+  Point3f sample(const std::array<double, 3>& u) const override;
+  double directionDensity(const Segment& line) const override;
   Bounds3f bounds() const override { return box_; }
-  Rgb total() const override { return emission_ * static_cast<float>(volume_); }
+  Rgb total() const override { return total_; }
 
  private:
-  BoxEmission(const Bounds3f& box, double volume, Rgb emission)
-      : box_(box), volume_(volume), emission_(emission) {}
+  BoxEmission(const Bounds3f& box, double volume, Rgb total) : box_(box), volume_(volume), total_(total) {}
   Bounds3f box_;
   double volume_;
-  Rgb emission_;
+  Rgb total_;
 };
 
 }  // namespace pbrtmedia

@@ -13,33 +13,38 @@
 
 namespace pbrtmedia {
 
-/// Points in super-voxels chosen by their strength, uniform within each. Keeps its own copy of the strengths,
+/// Points in super-voxels chosen by their weight, uniform within each. Keeps its own copy of the weights,
 /// 4 bytes a cell and 16 for each that emits, so that bounds may change while it is in use.
 class CellEmission final : public EmissionVolume {
  public:
-  /// Null when no cell has a strength. `emission`: sigma_a Le at strength 1.
+  /// What a cell emits per volume, as one number, and what one that is not transparent shows of it at most.
+  struct Weight {
+    float emission = 0;  ///< relative to `emission` of `over`, less what the cell itself keeps back
+    float radiance = 0;  ///< relative to `radiance` of `over`
+  };
+  /// Null when no cell has a weight. `emission`: sigma_a Le, `radiance`: sigma_a Le / sigma_t, at weight 1.
   static std::unique_ptr<const EmissionVolume> over(const SuperVoxels& cells,
-                                                    const std::function<float(const SuperVoxel&)>& strengthOf,
-                                                    const Transform& worldFromLocal, Rgb emission);
+                                                    const std::function<Weight(const SuperVoxel&)>& weightOf,
+                                                    const Transform& worldFromLocal, Rgb emission,
+                                                    Rgb radiance);
 
-  Sample sample(const std::array<double, 3>& u) const override;
-  double pdf(Point3f p) const override;
+  Point3f sample(const std::array<double, 3>& u) const override;
+  double directionDensity(const Segment& line) const override;
   Bounds3f bounds() const override { return bounds_; }
-  Rgb total() const override { return emission_ * static_cast<float>(total_); }
+  Rgb total() const override { return total_; }
 
  private:
   CellEmission() = default;
   Bounds3d boxOf(const Vec3<std::int64_t>& cell) const;
-  std::size_t indexOf(const Vec3<std::int64_t>& cell) const;
 
   SuperVoxelLattice lattice_;
   Transform worldFromLocal_;
   AffineMap localFromWorld_;
-  Rgb emission_;
+  Rgb total_;
   Bounds3f bounds_;
-  double total_ = 0;                     ///< integral of the strength over the volume
-  std::vector<float> strengths_;         ///< of every cell, x fastest, without apron
-  std::vector<std::uint64_t> emitters_;  ///< numbers of the cells that emit
+  double sum_ = 0;                       ///< integral of the weight over the volume
+  std::vector<float> weights_;           ///< of every stored cell; 0 in the apron
+  std::vector<std::uint64_t> emitters_;  ///< numbers of the cells that emit, x fastest, without apron
   std::vector<double> cumulative_;       ///< their shares, added up; the last is 1
 };
 

@@ -18,53 +18,47 @@ double attenuatedDistance(double sigma, double length, double u) {
   return std::clamp(x, 0.0, length);
 }
 
-double sum(const EmissionProfile::Channels& c) { return c[0] + c[1] + c[2]; }
+double sum(const EmissionSampler::Channels& c) { return c[0] + c[1] + c[2]; }
 
 }  // namespace
 
-EmissionProfile::Step EmissionProfile::advance(double sEnter, double sExit, const Channels& emission,
-                                               const Channels& sigmaT) {
+void EmissionSampler::add(double sEnter, double sExit, const Channels& emission, const Channels& sigmaT,
+                          double tag) {
+  if (!(sExit > sEnter)) return;
   const double length = sExit - sEnter;
-  Step step{{}, depth_, 0, 0};
+  const Channels depthBefore = depth_;
+  Channels weights{};
   for (std::size_t c = 0; c < 3; ++c) {
     if (emission[c] > 0) {
-      step.weight[c] = emission[c] * std::exp(-depth_[c]) * attenuatedLength(sigmaT[c], length);
+      weights[c] = emission[c] * std::exp(-depth_[c]) * attenuatedLength(sigmaT[c], length);
     }
     if (sigmaT[c] > 0) depth_[c] += sigmaT[c] * length;
   }
-  step.attenuated = sum(step.weight);
-  step.emitted = share_ > 0 ? sum(emission) * length : 0;
-  total_ += step.attenuated;
-  totalEmitted_ += step.emitted;
-  return step;
-}
-
-double EmissionProfile::densityIn(const Channels& emission, const Channels& sigmaT,
-                                  const Channels& depthBefore, double offset) const {
-  double attenuated = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    if (emission[c] > 0) attenuated += emission[c] * std::exp(-depthBefore[c] - sigmaT[c] * offset);
-  }
-  double density = total_ > 0 ? (1 - share_) * attenuated / total_ : 0;
-  if (share_ > 0 && totalEmitted_ > 0) density += share_ * sum(emission) / totalEmitted_;
-  return density;
-}
-
-void EmissionSampler::add(double sEnter, double sExit, const Channels& emission, const Channels& sigmaT) {
-  if (!(sExit > sEnter)) return;
-  const Step step = advance(sEnter, sExit, emission, sigmaT);
-  const double weight = defensive_ ? step.emitted : step.attenuated;
+  const double attenuated = sum(weights), emitted = share_ > 0 ? sum(emission) * length : 0;
+  const double weight = defensive_ ? emitted : attenuated, before = defensive_ ? totalEmitted_ : total_;
+  total_ += attenuated;
+  totalEmitted_ += emitted;
   if (!(weight > 0)) return;
-  const double before = (defensive_ ? totalEmitted() : total()) - weight;
   // The first to weigh anything is chosen without a random number.
   if (hasChosen_ && rng_.uniformDouble() * (before + weight) >= weight) return;
   hasChosen_ = true;
   sEnter_ = sEnter;
   sExit_ = sExit;
+  tag_ = tag;
   emission_ = emission;
   sigmaT_ = sigmaT;
-  depthBefore_ = step.depthBefore;
-  weight_ = step.weight;
+  depthBefore_ = depthBefore;
+  weight_ = weights;
+}
+
+double EmissionSampler::densityAt(double offset) const {
+  double attenuated = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (emission_[c] > 0) attenuated += emission_[c] * std::exp(-depthBefore_[c] - sigmaT_[c] * offset);
+  }
+  double density = total_ > 0 ? (1 - share_) * attenuated / total_ : 0;
+  if (share_ > 0 && totalEmitted_ > 0) density += share_ * sum(emission_) / totalEmitted_;
+  return density;
 }
 
 std::optional<EmissionSampler::Distance> EmissionSampler::distance() {
@@ -80,23 +74,9 @@ std::optional<EmissionSampler::Distance> EmissionSampler::distance() {
     while (!(weight_[channel] > 0)) --channel;  // rounding of the sum past the last that weighs anything
     offset = attenuatedDistance(sigmaT_[channel], length, rng_.uniformDouble());
   }
-  const double pdf = densityIn(emission_, sigmaT_, depthBefore_, offset);
+  const double pdf = densityAt(offset);
   if (!(pdf > 0) || !std::isfinite(pdf)) return std::nullopt;
-  return Distance{sEnter_ + offset, pdf};
-}
-
-void EmissionDensity::add(double sEnter, double sExit, const Channels& emission, const Channels& sigmaT) {
-  if (!(sExit > sEnter)) return;
-  const Step step = advance(sEnter, sExit, emission, sigmaT);
-  if (!(s_ >= sEnter && s_ <= sExit) || offset_ >= 0) return;
-  offset_ = s_ - sEnter;
-  emission_ = emission;
-  sigmaT_ = sigmaT;
-  depthBefore_ = step.depthBefore;
-}
-
-double EmissionDensity::pdf() const {
-  return offset_ >= 0 ? densityIn(emission_, sigmaT_, depthBefore_, offset_) : 0;
+  return Distance{sEnter_ + offset, pdf, tag_};
 }
 
 }  // namespace pbrtmedia

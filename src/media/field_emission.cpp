@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "media/field_emission.h"
 
+#include <cmath>
 #include <sstream>
 
 #include "media/cell_emission.h"
@@ -26,11 +27,38 @@ SuperVoxels FieldEmission::patterned(const SuperVoxels& bounds, const Transform&
   });
 }
 
+Rgb FieldEmission::sourceOf(Rgb factor) const {
+  Rgb source;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (emission_[c] > 0) source[c] = emission_[c] * factor[c] / sigmaT_[c];
+  }
+  return source;
+}
+
+Rgb FieldEmission::sourceAt(Vec3d world) const {
+  return sourceOf(pattern_ ? pattern_->at(world) : Rgb(1.0f));
+}
+
+double FieldEmission::lengthOf(Vec3d cellSize, const Transform& worldFromLocal) {
+  return std::cbrt(cellSize.x * cellSize.y * cellSize.z * std::abs(worldFromLocal.matrix().determinant3()));
+}
+
 std::unique_ptr<const EmissionVolume> FieldEmission::volume(const SuperVoxels& bounds,
                                                             const Transform& worldFromLocal) const {
   if (!isEmissive()) return nullptr;
-  return CellEmission::over(
-      cells(bounds), [this](const SuperVoxel& cell) { return strengthOf(cell); }, worldFromLocal, emission_);
+  const float emitted = emission_.r + emission_.g + emission_.b;
+  const auto weightOf = [&](const SuperVoxel& cell) -> CellEmission::Weight {
+    const double strength = static_cast<double>(strengthOf(cell)), density = densityOf(cell);
+    double escaping = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      // The mean chord of a cube is two thirds of its edge.
+      escaping += static_cast<double>(emission_[c] / emitted) *
+                  escapingShare(static_cast<double>(sigmaT_[c]) * density * cellLength_ * (2.0 / 3));
+    }
+    return {static_cast<float>(strength * escaping),
+            density > 0 ? static_cast<float>(strength / density) : 0.0f};
+  };
+  return CellEmission::over(cells(bounds), weightOf, worldFromLocal, emission_, sourceOf(Rgb(1.0f)));
 }
 
 std::string FieldEmission::describe() const {

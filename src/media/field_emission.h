@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -23,10 +24,11 @@ class FieldEmission {
   FieldEmission() = default;  ///< nothing
   /// `emission`: sigma_a Le at density 1. `pattern` may be null. `bounds`: of the field's density.
   template <class Field>
-  FieldEmission(Rgb emission, std::shared_ptr<const EmissionPattern> pattern, const Field& field,
+  FieldEmission(Rgb emission, Rgb sigmaT, std::shared_ptr<const EmissionPattern> pattern, const Field& field,
                 const SuperVoxels& bounds)
-      : emission_(emission), pattern_(std::move(pattern)) {
+      : emission_(emission), sigmaT_(sigmaT), pattern_(std::move(pattern)) {
     if (!isEmissive()) return;
+    cellLength_ = lengthOf(bounds.cellSize(), field.worldFromLocal());
     if constexpr (!Field::kProvenBounds) {
       cells_ = probedDensity(bounds.lattice(), [&](Vec3d p) { return field.uncutDensity(p); });
     }
@@ -39,23 +41,49 @@ class FieldEmission {
     const Rgb e = emission_ * density;
     return pattern_ && density > 0 ? e * pattern_->at(world) : e;
   }
+  /// What a point emits over its extinction: the radiance of a body that is not transparent.
+  Rgb sourceAt(Vec3d world) const;
+  /// The same without the pattern, times `factor`.
+  Rgb sourceOf(Rgb factor = Rgb(1.0f)) const;
   /// The super-voxels to walk: `bounds` are those of the density.
   const SuperVoxels& cells(const SuperVoxels& bounds) const { return cells_ ? *cells_ : bounds; }
   /// How much a cell of them emits, relative to `emission`.
   float strengthOf(const SuperVoxel& cell) const { return cells_ ? cell.upper : controlDensity(cell); }
 
-  /// Adds the intervals of a line (FieldLine over `cells`) to a profile.
-  template <class Line, class Profile>
-  void addTo(Profile& profile, const Line& line, Rgb sigmaT) const {
+  /// Of what a cell emits, the share that free flights find; distances chosen by a profile find the rest. A
+  /// cell that one sees through is dense nowhere, so its profile is good; in one of many mean free paths
+  /// light comes from the first of them behind the true surface, of which the profile knows nothing, and a
+  /// flight that ends there always is.
+  double flightShare(const SuperVoxel& cell) const {
+    constexpr double kThin = 1, kThick = 4;  // optical depths of a cell
+    const double depth = static_cast<double>(sigmaT_.max()) * densityOf(cell) * cellLength_;
+    const double x = std::clamp((depth - kThin) / (kThick - kThin), 0.0, 1.0);
+    return x * x * (3 - 2 * x);
+  }
+  /// The same at `s` of a line (FieldLine over `cells`).
+  template <class Line>
+  double flightShareAt(const Line& line, double s) const {
+    double share = 0;
+    line.walk([&](double, double sExit, const SuperVoxel& cell) {
+      share = cell.upper > 0 ? flightShare(cell) : 0;
+      return sExit < s;
+    });
+    return share;
+  }
+  /// Adds what the intervals of a line (FieldLine over `cells`) emit, less the share that flights find if
+  /// there are such; a distance comes with what it has to find there as its tag. True: flights find some.
+  template <class Line>
+  bool addTo(EmissionSampler& sampler, const Line& line, bool hasFlights) const {
+    bool flies = false;
     line.walk([&](double sEnter, double sExit, const SuperVoxel& cell) {
       if (!(cell.upper > 0)) return true;
-      const double strength = strengthOf(cell), density = cells_ ? cell.mean : controlDensity(cell);
-      const auto times = [](Rgb c, double x) -> EmissionProfile::Channels {
-        return {c.r * x, c.g * x, c.b * x};
-      };
-      profile.add(sEnter, sExit, times(emission_, strength), times(sigmaT, density));
+      const double rest = hasFlights ? 1 - flightShare(cell) : 1;
+      flies |= rest < 1;
+      sampler.add(sEnter, sExit, times(emission_, strengthOf(cell) * rest), times(sigmaT_, densityOf(cell)),
+                  rest);
       return true;
     });
+    return flies;
   }
   /// For light sampling; null when no cell emits.
   std::unique_ptr<const EmissionVolume> volume(const SuperVoxels& bounds,
@@ -65,7 +93,16 @@ class FieldEmission {
   std::size_t bytes() const { return (cells_ ? cells_->bytes() : 0) + (pattern_ ? pattern_->bytes() : 0); }
 
  private:
-  Rgb emission_;
+  static EmissionSampler::Channels times(Rgb c, double x) { return {c.r * x, c.g * x, c.b * x}; }
+  /// The edge of a cube of a cell's volume, in world space.
+  static double lengthOf(Vec3d cellSize, const Transform& worldFromLocal);
+  /// A control of the density.
+  double densityOf(const SuperVoxel& cell) const {
+    return static_cast<double>(cells_ ? cell.mean : controlDensity(cell));
+  }
+
+  Rgb emission_, sigmaT_;
+  double cellLength_ = 0;
   std::shared_ptr<const EmissionPattern> pattern_;
   SuperVoxels patterned(const SuperVoxels& bounds, const Transform& worldFromLocal) const;
 

@@ -50,7 +50,8 @@ class FieldMedium final : public Medium {
         samplingPattern_(params.pattern),
         phase_(makePhaseFunction(params.phase)),
         sigmaS_(params.sigmaS),
-        emission_(params.sigmaA * params.le, params.emissionPattern, field_, bounds_) {
+        emission_(params.sigmaA * params.le, params.sigmaA + params.sigmaS, params.emissionPattern, field_,
+                  bounds_) {
     checkCoefficients(params.sigmaA, params.sigmaS, name());
     checkEmission(params.le, params.sigmaA * params.le, name());
     albedo_ = albedoOf(sigmaS_, sigmaT_);
@@ -108,12 +109,14 @@ class FieldMedium final : public Medium {
     const AnyLaw* const law = isExponential() ? nullptr : &law_;
     FreeFlight flight =
         sigmaT_.isGrey()
-            ? fly(*line, segment, FlightQuery<1>{{sigmaT_.r}, {albedo_.average()}, {1}, law}, rng, counters)
-            : fly(*line, segment,
-                  FlightQuery<3>{channelsOf(sigmaT_), channelsOf(albedo_),
-                                 importanceOf(channelsOf(throughput)), law},
-                  rng, counters);
-    if (flight.collided) flight.t = std::clamp(flight.t, segment.tMin, segment.tMax);
+            ? flyOn(*line, segment, FlightQuery<1>{{sigmaT_.r}, {albedo_.average()}, {1}, law}, rng, counters)
+            : flyOn(*line, segment,
+                    FlightQuery<3>{channelsOf(sigmaT_), channelsOf(albedo_),
+                                   importanceOf(channelsOf(throughput)), law},
+                    rng, counters);
+    if (!flight.collided) return flight;
+    flight.t = std::clamp(flight.t, segment.tMin, segment.tMax);
+    flight.weight *= albedo_;
     return flight;
   }
 
@@ -143,25 +146,33 @@ class FieldMedium final : public Medium {
 
   bool isEmissive() const override { return emission_.isEmissive(); }
 
-  EmissionDistance sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const override {
+  /// One point by a profile of what emits, one by a free flight: FieldEmission::flightShare.
+  EmissionSamples sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const override {
+    EmissionSamples samples;
     const auto line = emissionLine(segment);
-    if (!line) return {};
-    EmissionSampler sampler(EmissionProfile::kDefensiveShare, rng);
-    emission_.addTo(sampler, *line, sigmaT_);
-    const auto distance = sampler.distance();
-    if (!distance) return {};
-    ++counters.densityLookups;
-    const double t = std::clamp(line->tEntry() + distance->s, segment.tMin, segment.tMax);
-    const Vec3d p = Vec3d(segment.o) + t * Vec3d(segment.d);
-    return {t, distance->pdf, emission_.at(p, line->density(distance->s))};
+    if (!line) return samples;
+    EmissionSampler sampler(EmissionSampler::kDefensiveShare, rng);
+    // Under another law a collision is not extinction times transmittance.
+    const bool flies = emission_.addTo(sampler, *line, isExponential());
+    if (const auto distance = sampler.distance()) {
+      ++counters.densityLookups;
+      const double t = std::clamp(line->tEntry() + distance->s, segment.tMin, segment.tMax);
+      const Rgb emission = emission_.at(pointOf(segment, t), line->density(distance->s));
+      const double weight = distance->tag / distance->pdf;
+      if (!emission.isBlack()) {
+        const Rgb through = transmittance({segment.o, segment.d, segment.tMin, t}, rng, counters);
+        samples.add(t, through * emission * static_cast<float>(weight));
+      }
+    }
+    if (flies) flyToEmission(samples, *line, segment, rng, counters);
+    return samples;
   }
 
-  double emissionDistancePdf(const Segment& segment, double t) const override {
-    const auto line = emissionLine(segment);
-    if (!line) return 0;
-    EmissionDensity density(EmissionProfile::kDefensiveShare, t - line->tEntry());
-    emission_.addTo(density, *line, sigmaT_);
-    return density.pdf();
+  void exploreBounds(std::size_t firstCell, std::size_t lastCell, std::uint64_t seed,
+                     RenderCounters& counters) const override {
+    if constexpr (requires { field_.explore(firstCell, lastCell, seed); }) {
+      counters.densityLookups += field_.explore(firstCell, lastCell, seed);
+    }
   }
 
   std::unique_ptr<const EmissionVolume> emissionVolume(const Bounds3f&) const override {
@@ -233,6 +244,27 @@ class FieldMedium final : public Medium {
     return FieldLine<Field>::clip(field_, emission_.cells(bounds_), segment);
   }
 
+  static Vec3d pointOf(const Segment& segment, double t) { return Vec3d(segment.o) + t * Vec3d(segment.d); }
+
+  /// The emission that free flights find. What a collision stands for is emission over extinction, of which
+  /// the density is no part.
+  void flyToEmission(EmissionSamples& samples, const FieldLine<Field>& emissionLine, const Segment& segment,
+                     Rng& rng, RenderCounters& counters) const {
+    const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
+    if (!line) return;
+    const FreeFlight flight =
+        sigmaT_.isGrey() ? flyOn(*line, segment, FlightQuery<1>{.sigmaT = {sigmaT_.r}}, rng, counters)
+                         : flyOn(*line, segment,
+                                 FlightQuery<3>{.sigmaT = channelsOf(sigmaT_),
+                                                .importance = importanceOf(channelsOf(emission_.sourceOf()))},
+                                 rng, counters);
+    if (!flight.collided) return;
+    const double t = std::clamp(flight.t, segment.tMin, segment.tMax);
+    const double share = emission_.flightShareAt(emissionLine, flight.t - emissionLine.tEntry());
+    if (!(share > 0)) return;
+    samples.add(t, flight.weight * emission_.sourceAt(pointOf(segment, t)) * static_cast<float>(share));
+  }
+
   template <std::size_t N>
   Rgb estimate(const FieldLine<Field>& line, const Segment& segment, const Channels<N>& sigmaT, Rng& rng,
                RenderCounters& counters) const {
@@ -284,15 +316,16 @@ class FieldMedium final : public Medium {
         BoundViolation{name(), segment.o, segment.d, t, tally.worstDensity, tally.worstBound};
   }
 
+  /// Collisions weigh extinction, not scattering.
   template <std::size_t N>
-  FreeFlight fly(const FieldLine<Field>& line, const Segment& segment, const FlightQuery<N>& query, Rng& rng,
-                 RenderCounters& counters) const {
+  FreeFlight flyOn(const FieldLine<Field>& line, const Segment& segment, const FlightQuery<N>& query,
+                   Rng& rng, RenderCounters& counters) const {
     const FlightSample<N> result =
         std::visit([&](const auto& sampler) { return pbrtmedia::fly(sampler, line, query, rng); }, sampler_);
     count(line, segment, result.tally, counters);
     const Rgb weight = toRgb(result.weight);
     if (!result.collided) return {false, 0, weight};
-    return {true, line.tEntry() + result.s, weight * albedo_};
+    return {true, line.tEntry() + result.s, weight};
   }
 
   Field field_;

@@ -73,33 +73,22 @@ FlightControl HomogeneousMedium::flightControl(const Segment& segment) const {
   return control;
 }
 
-namespace {
-
-/// One interval: the medium itself.
-template <class Profile>
-void addWhole(Profile& profile, Rgb emission, Rgb sigmaT, double length) {
-  profile.add(0, length, {emission.r, emission.g, emission.b}, {sigmaT.r, sigmaT.g, sigmaT.b});
-}
-
-}  // namespace
-
-EmissionDistance HomogeneousMedium::sampleEmission(const Segment& segment, Rng& rng, RenderCounters&) const {
+EmissionSamples HomogeneousMedium::sampleEmission(const Segment& segment, Rng& rng,
+                                                  RenderCounters& counters) const {
+  EmissionSamples samples;
   EmissionSampler sampler(0, rng);
-  addWhole(sampler, emission_, sigmaT_, segment.length());
+  sampler.add(0, segment.length(), channelsOf(emission_), channelsOf(sigmaT_));
   const auto distance = sampler.distance();
-  if (!distance) return {};
-  return {segment.tMin + distance->s, distance->pdf, emission_};
-}
-
-double HomogeneousMedium::emissionDistancePdf(const Segment& segment, double t) const {
-  EmissionDensity density(0, t - segment.tMin);
-  addWhole(density, emission_, sigmaT_, segment.length());
-  return density.pdf();
+  if (!distance) return samples;
+  // From the distance itself: far from the segment's origin t is coarser than the way light goes.
+  const Rgb through = transmittance({segment.o, segment.d, 0, distance->s}, rng, counters);
+  samples.add(segment.tMin + distance->s, through * emission_ * static_cast<float>(1 / distance->pdf));
+  return samples;
 }
 
 std::unique_ptr<const EmissionVolume> HomogeneousMedium::emissionVolume(const Bounds3f& boundary) const {
   if (!isEmissive() || boundary.isEmpty()) return nullptr;
-  return BoxEmission::over(boundary, emission_);
+  return BoxEmission::over(boundary, emission_, sigmaT_);
 }
 
 Bounds3f HomogeneousMedium::bounds() const {

@@ -29,8 +29,7 @@ class HomogeneousMedium final : public Medium {
   MediumPoint at(Point3f, RenderCounters&) const override { return {sigmaS_, emission_}; }
   FlightControl flightControl(const Segment& segment) const override;
   bool isEmissive() const override { return !emission_.isBlack(); }
-  EmissionDistance sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
-  double emissionDistancePdf(const Segment& segment, double t) const override;
+  EmissionSamples sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
   std::unique_ptr<const EmissionVolume> emissionVolume(const Bounds3f& boundary) const override;
   Bounds3f bounds() const override;
   std::string describe() const override;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -38,11 +41,20 @@ struct FlightControl {
   Rgb rate;   ///< extinction at its end, 1/length
 };
 
-/// A point chosen where a segment emits.
-struct EmissionDistance {
-  double t = 0;
-  double pdf = 0;  ///< per length; 0: nothing emits
-  Rgb emission;    ///< MediumPoint::emission there
+/// Points chosen where a segment emits, with what comes from there to the segment's start, dimmed by the
+/// medium itself: the sum of f(t) times the radiance is, for any function f of the distance, an unbiased
+/// estimate of that sum over all that the segment emits.
+struct EmissionSamples {
+  struct Sample {
+    double t = 0;
+    Rgb radiance;
+  };
+  std::array<Sample, 2> samples;
+  std::size_t count = 0;
+
+  void add(double t, Rgb radiance) { samples[count++] = {t, radiance}; }
+  const Sample* begin() const { return samples.data(); }
+  const Sample* end() const { return samples.data() + count; }
 };
 
 /// How a medium behaves where others overlap it.
@@ -85,17 +97,11 @@ class Medium {
   virtual MediumPoint at(Point3f p, RenderCounters& counters) const = 0;
   virtual FlightControl flightControl(const Segment& segment) const = 0;
 
-  // What emits has these too. A distance with `emissionDistancePdf` positive wherever the segment emits:
-  // emission times transmittance over the density is an unbiased estimate of what the segment sends to its
-  // start.
+  // What emits has these too.
   virtual bool isEmissive() const { return false; }
-  virtual EmissionDistance sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const {
+  virtual EmissionSamples sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const {
     (void)segment, (void)rng, (void)counters;
     return {};
-  }
-  virtual double emissionDistancePdf(const Segment& segment, double t) const {
-    (void)segment, (void)t;
-    return 0;
   }
   /// For light sampling; null when there is nothing to sample. A medium without an end of its own is sampled
   /// inside `boundary`.
@@ -112,6 +118,12 @@ class Medium {
   /// Bounds that are learned while rendering: whoever renders publishes them between passes. Null for media
   /// whose bounds stay as they are.
   virtual LearnedBounds* learnedBounds() { return nullptr; }
+  /// Learned bounds only: proposes bounds for the super-voxels [firstCell, lastCell), x fastest, from
+  /// look-ups in each (fields/explore_bounds.h). They depend on cell and seed alone. Thread-safe.
+  virtual void exploreBounds(std::size_t firstCell, std::size_t lastCell, std::uint64_t seed,
+                             RenderCounters& counters) const {
+    (void)firstCell, (void)lastCell, (void)seed, (void)counters;
+  }
   /// What was wrong with densities so far, for a warning after rendering; empty: nothing.
   virtual std::string complaint() const { return {}; }
   /// One line for --verbose: field, bounds, estimator, sampler, bytes.

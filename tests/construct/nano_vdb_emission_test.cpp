@@ -69,12 +69,15 @@ TEST_F(ConstructNanoVdbEmission, DistancesFindAllOfIt) {
   const auto volume = medium.emissionVolume({});
   ASSERT_NE(volume, nullptr);
   std::size_t emitting = 0;
+  Rng rng(1);
+  RenderCounters counters;
   for (int i = 0; i < 400; ++i) {
     const double t = 0.01 * i + 0.005;
     if (emissionAt(a, up.at(t)).isBlack()) continue;
     ++emitting;
-    EXPECT_GT(medium.emissionDistancePdf(up, t), 0) << t;
-    EXPECT_GT(volume->pdf(up.at(t)), 0) << t;
+    const Segment there{up.o, up.d, t - 1e-6, t + 1e-6};
+    EXPECT_GT(medium.sampleEmission(there, rng, counters).count, 0u) << t;
+    EXPECT_GT(volume->directionDensity(there), 0) << t;
   }
   EXPECT_GT(emitting, 20u);
 }

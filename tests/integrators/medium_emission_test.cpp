@@ -300,17 +300,25 @@ TEST(PlacedEmission, EveryPlacementIsALightOfItsOwn) {
   kit.builder.addInstance(object, AnimatedTransform(Transform::scale(2, -3, 4)));
   const auto scene = kit.finish();
   ASSERT_EQ(scene->lightsWithMedia().size(), 3u);
-  const float power = 4 * kPi * 6;
+  // Of what a cube of edge 1 emits, the share that escapes along its mean chord.
+  const float power = 4 * kPi * 6 * static_cast<float>(-std::expm1(-2 * 2.0 / 3) / (2 * 2.0 / 3));
   for (const auto& [number, volume] : {std::pair{0u, 1.0f}, {1u, 1.0f}, {2u, 24.0f}}) {
     const MediumLight& light = *scene->mediumLight(number);
     EXPECT_EQ(scene->lightOf(light.medium()), number);
     EXPECT_NEAR(light.power().r, power * volume, 1e-4f * power * volume);
     const Point3f from{7, 8, 20};
     for (const Point2f u : {Point2f(0.1f, 0.2f), Point2f(0.9f, 0.4f)}) {
-      const LightSample s = light.sample(from, u, kTime);
-      EXPECT_NEAR(s.pdf, sqr(s.distance) / volume, 1e-4f * s.pdf);
-      EXPECT_NEAR(light.pdfAt(from, s.wi, double{s.distance}, kTime), double{s.pdf}, 1e-4 * double{s.pdf});
-      EXPECT_EQ(s.radiance, Rgb(6)) << "coefficients are per length of the world";
+      const LightSample s = light.sampleDirection(from, u, kTime);
+      const auto span = light.span(from, s.wi, kTime);
+      ASSERT_TRUE(span);
+      const double pdf = (std::pow(span->tMax, 3) - std::pow(span->tMin, 3)) / (3 * double{volume});
+      EXPECT_NEAR(s.pdf, pdf, 1e-4 * pdf);
+      EXPECT_NEAR(light.directionPdf(from, s.wi, kTime), pdf, 1e-4 * pdf);
+      EXPECT_NEAR(s.distance, span->tMax, 1e-6 * span->tMax);
+      const LightSample point = light.sample(from, u);
+      EXPECT_NEAR(point.radiance.r * sqr(point.distance), light.power().r / (4 * kPi),
+                  1e-4f * light.power().r)
+          << "for the selection of lights all of it shines from one point";
     }
   }
 }
@@ -457,55 +465,198 @@ TEST(MediumEmission, PathIgnoresIt) {
   EXPECT_TRUE(scene->lights().empty());
 }
 
-TEST(MediumLight, DensitiesAreThoseOfItsSamples) {
+/// A grid with empty cells, turned.
+std::unique_ptr<Medium> patchyFire(float sigma) {
   GridMediumParams p;
   p.name = "fire";
-  p.sigmaA = Rgb(1);
+  p.sigmaA = Rgb(sigma);
   p.le = Rgb(1);
   p.bounds.cells = std::array{4, 4, 4};
   p.grid.nx = p.grid.ny = p.grid.nz = 8;
   for (int i = 0; i < 512; ++i) p.grid.density.push_back(static_cast<float>(i % 64 > 40 ? i % 7 : 0));
   p.grid.p0 = {-1, -2, -1};
   p.grid.p1 = {1, 2, 3};
-  const Transform place = Transform::rotate(30, {1, 2, 3});
-  // The integral of sigma_a Le over the volume, by a midpoint rule.
-  const std::unique_ptr<Medium> fire = makeGridMedium(p, place);
-  RenderCounters counters;
-  double truth = 0;
-  constexpr int kSteps = 64;
-  for (int k = 0; k < kSteps; ++k) {
-    for (int j = 0; j < kSteps; ++j) {
-      for (int i = 0; i < kSteps; ++i) {
-        const Vec3d local{-1 + 2 * (i + 0.5) / kSteps, -2 + 4 * (j + 0.5) / kSteps,
-                          -1 + 4 * (k + 0.5) / kSteps};
-        truth += double{fire->at(Point3f(place.point(local)), counters).emission.r};
+  return makeGridMedium(p, Transform::rotate(30, {1, 2, 3}));
+}
+
+TEST(MediumLight, DensitiesAreThoseOfItsSamples) {
+  const Placement skewed(0, AnimatedTransform(kSkew));
+  for (const float sigma : {1.0f, 1000.0f}) {
+    const std::unique_ptr<Medium> fire = patchyFire(sigma);
+    const std::unique_ptr<const EmissionVolume> volume = fire->emissionVolume({});
+    for (const Placement* placement : {static_cast<const Placement*>(nullptr), &skewed}) {
+      const MediumLight light({fire.get(), placement}, *volume);
+      // From outside, and from between its cells.
+      for (const Point3f x :
+           {Point3f(4, 1, 2), Point3f(placement ? 1.2f : 0.1f, placement ? -1.8f : 0.2f, 3)}) {
+        // Where does a direction of the sphere lie? The density integrates to 1, and samples follow it.
+        Rng rng(3);
+        RunningStats whole, up, upOfSamples;
+        for (int i = 0; i < 1 << 17; ++i) {
+          const float z = 2 * rng.uniform() - 1, phi = 2 * kPi * rng.uniform();
+          const float r = std::sqrt(1 - z * z);
+          const Vector3f d{r * std::cos(phi), r * std::sin(phi), z};
+          const double density = light.directionPdf(x, d, kTime) * 4 * kPi;
+          whole.add(density);
+          const auto isUp = [](Vector3f v) { return v.z + 0.3f * v.x > 0.1f; };
+          up.add(isUp(d) ? density : 0);
+          const LightSample s = light.sampleDirection(x, {rng.uniform(), rng.uniform()}, kTime);
+          ASSERT_GT(s.pdf, 0);
+          upOfSamples.add(isUp(s.wi) ? 1 : 0);
+          if (i >= 1000) continue;
+          EXPECT_NEAR(light.directionPdf(x, s.wi, kTime), s.pdf, 1e-4 * double{s.pdf}) << i;
+          const auto span = light.span(x, s.wi, kTime);
+          ASSERT_TRUE(span) << i;
+          EXPECT_GE(double{s.distance}, span->tMax);
+        }
+        const ZTest one = zTest(whole, 1), same = zTest(up, upOfSamples);
+        EXPECT_LT(std::abs(one.z()), kMaxAbsZ) << sigma << ": " << one;
+        EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << sigma << ": " << same;
+        EXPECT_LT(one.standardError, 0.02);
       }
     }
   }
-  truth *= 32.0 / (kSteps * kSteps * kSteps);
+}
 
-  const Placement skewed(0, AnimatedTransform(kSkew));
-  for (const Placement* placement : {static_cast<const Placement*>(nullptr), &skewed}) {
-    const std::unique_ptr<const EmissionVolume> volume = fire->emissionVolume({});
-    const MediumLight light({fire.get(), placement}, *volume);
-    const Point3f x{4, 1, 2};
-    Rng rng(3);
-    RunningStats total;
-    for (int i = 0; i < 1 << 16; ++i) {
-      const LightSample s = light.sample(x, {rng.uniform(), rng.uniform()}, kTime);
-      ASSERT_GT(s.pdf, 0);
-      if (i < 1000) {
-        EXPECT_NEAR(light.pdfAt(x, s.wi, double{s.distance}, kTime), s.pdf, 1e-4 * s.pdf) << i;
-        if (s.radiance.r > 0) {
-          EXPECT_GT(light.distancePdf(x, s.wi, double{s.distance}, kTime), 0) << i;
+TEST(MediumLight, PowerIsThatOfItsVolumeWhenThinAndOfItsSurfaceWhenDense) {
+  SceneKit kit;
+  for (const auto storage : kStorages) {
+    const auto powerOf = [&](float sigma) {
+      SceneKit own;
+      const Medium* medium = make(own, {Rgb(sigma), Rgb(0), Rgb(2), storage});
+      const float edge = storage == Gas::Storage::Grid ? 6.0f : 1.0f;
+      const auto volume = medium->emissionVolume({{0, 0, 0}, {1, 1, 1}});
+      return MediumLight({medium, nullptr}, *volume).power().r / (edge * edge);
+    };
+    const float edge = storage == Gas::Storage::Grid ? 6.0f : 1.0f;
+    EXPECT_NEAR(powerOf(1e-4f), 4 * kPi * 2e-4f * edge, 1e-3f * powerOf(1e-4f));
+    // Radiance 2 from a surface of 6: pi L A.
+    for (const float sigma : {1e3f, 1e6f}) EXPECT_NEAR(powerOf(sigma), kPi * 2 * 6, 0.02f * powerOf(sigma));
+  }
+}
+
+TEST(MediumEmission, FloorUnderADenseBallIsThatOfASurfaceWithBoundedNoise) {
+  // Of every density the same noise, and of the limit the same light as of a surface.
+  for (const auto storage : kStorages) {
+    double thin = 0;
+    for (const float sigma : {5.0f, 50.0f, 500.0f, 5000.0f, 1e6f}) {
+      const auto scene = glowingBall({Rgb(sigma), Rgb(0), Rgb(3), storage});
+      const Estimates e = estimate(*makeVolPath(*scene, {.maxDepth = 1}), kAtFloor, 1 << 14);
+      const ZTest test = zTest(e.red, floorUnderBall(double{sigma}));
+      EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << "sigma_a " << sigma << ": " << test;
+      if (thin == 0) thin = test.standardError;
+      EXPECT_LT(test.standardError, 1.3 * thin) << "sigma_a " << sigma;
+      EXPECT_EQ(e.counters.droppedTotal(), 0u);
+    }
+    EXPECT_NEAR(floorUnderBall(1e6), 0.5 * 3 / 4, 1e-4) << "a Lambertian sphere from two radii";
+  }
+}
+
+TEST(MediumEmission, LightSamplesAndHitsAgreeInDenseColouredGas) {
+  for (const auto storage : kStorages) {
+    for (const Rgb sigmaS : {Rgb(0), Rgb(30, 300, 3)}) {
+      const Gas gas{Rgb(40, 400, 4), sigmaS, Rgb(1, 2, 3), storage};
+      const PathParams params{.maxDepth = 3};
+      for (const Ray& ray : {kDown, kAtFloor}) {
+        const Estimates a = estimate(*makeVolPath(*glowingBall(gas), params), ray, 1 << 13),
+                        b = unlit(gas, nullptr, params, ray, 1 << 13);
+        for (const auto& [x, y] : {std::pair{&a.red, &b.red}, {&a.green, &b.green}, {&a.blue, &b.blue}}) {
+          const ZTest same = zTest(*x, *y);
+          EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
         }
       }
-      total.add(double{s.radiance.r} * sqr(double{s.distance}) / double{s.pdf});
     }
-    const double world = placement ? truth * 3 : truth;  // kSkew scales volumes by 2 * 0.5 * 3
-    EXPECT_NEAR(total.mean(), world, kMaxAbsZ * total.standardError() + 1e-3 * world);
-    EXPECT_LT(total.standardError(), 0.02 * world);
   }
+}
+
+TEST(PlacedEmission, OfADenseBallHasBoundedNoise) {
+  const double truth = floorUnderBall(5000);
+  for (const Placing& placing : placings()) {
+    for (const auto storage : kStorages) {
+      const auto scene = glowingBall({Rgb(5000), Rgb(0), Rgb(3), storage}, &placing);
+      const ZTest test = zTest(estimate(*makeVolPath(*scene, {.maxDepth = 1}), kAtFloor, 1 << 14).red, truth);
+      EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << placing.name << ": " << test;
+      EXPECT_LT(test.standardError, 0.02 * truth) << placing.name;
+    }
+  }
+}
+
+TEST(MediumEmission, FromWithinADenseGasEveryDirectionShinesAlike) {
+  // A white ball in gas of sigma_a Le that nothing leaves: it reflects all of what it gets, Le.
+  for (const auto storage : kStorages) {
+    for (const float sigma : {20.0f, 2e4f}) {
+      SceneKit kit;
+      const Medium* medium = make(kit, {Rgb(sigma), Rgb(0), Rgb(3), storage});
+      kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 2), .media = {medium, nullptr}});
+      kit.builder.addPrimitive({.shape = kit.square(0, 1.5f), .material = kit.matte(0.5f)});
+      const auto scene = kit.finish();
+      const VolPathIntegrator integrator(
+          *scene, {.maxDepth = 1},
+          makeLightSelector(LightStrategy::Uniform, scene->lightsWithMedia(), scene->bounds()),
+          CameraMedium(*scene, {0, 0, 1e-5f}, 0, medium));
+      const Estimates e = estimate(integrator, rayAtTime({0, 0, 1e-5f}, {0.1f, 0, -1}), 1 << 14);
+      const double near = std::exp(-double{sigma} * 1e-5 * std::sqrt(1.01));
+      const ZTest test = zTest(e.red, 3 * (1 - near) + near * 0.5 * 3);
+      EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << sigma << ": " << test;
+      EXPECT_LT(test.standardError, 0.05);
+    }
+  }
+}
+
+TEST(MediumEmission, SharpEdgesInsideSuperVoxelsCostNoNoise) {
+  // Dense behind a step that the super-voxel, one for all, knows nothing of.
+  for (const float sigma : {2.0f, 6.0f, 20.0f, 200.0f, 2e3f}) {
+    SceneKit kit;
+    GridMediumParams p;
+    p.name = "fire";
+    p.sigmaA = Rgb(sigma, sigma / 2, sigma);
+    p.sigmaS = Rgb(0);
+    p.le = Rgb(2, 3, 4);
+    p.bounds.cells = std::array{1, 1, 1};
+    p.grid.nx = p.grid.ny = 1;
+    p.grid.nz = 40;
+    p.grid.border = GridBorder::Clamp;
+    for (int i = 0; i < 40; ++i) p.grid.density.push_back(i < 13 ? 1.0f : 0.0f);
+    p.grid.p0 = {-2, -2, -1};
+    p.grid.p1 = {2, 2, 1};
+    const Medium* fire = kit.builder.own(makeGridMedium(p, Transform()));
+    kit.builder.addPrimitive({.shape = kit.box({-1, -1, -1}, {1, 1, 1}), .media = {fire, nullptr}});
+    const auto scene = kit.finish();
+    const Estimates e = estimate(*makeVolPath(*scene, {.maxDepth = 0}), kDown, 1 << 11);
+    const double depth = double{sigma} * 2 * 13 / 40;
+    const std::array truths = {2 * -std::expm1(-depth), 3 * -std::expm1(-depth / 2), 4 * -std::expm1(-depth)};
+    const std::array channels = {&e.red, &e.green, &e.blue};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const ZTest test = zTest(*channels[c], truths[c]);
+      EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << sigma << ": " << test;
+      EXPECT_LT(test.standardError, 0.03 * truths[c]) << sigma << ", channel " << c;
+    }
+  }
+}
+
+TEST(MediumEmission, LookupsOfLightSamplesAreCounted) {
+  // One point of a floor: the light sample looks, and the ray that scattering sends on.
+  const Gas gas{Rgb(0.05f), Rgb(0), Rgb(3), Gas::Storage::Grid};
+  const auto lit = glowingBall(gas);
+  const auto lookups = [&](const Estimates& e) { return e.counters.densityLookups; };
+  const Estimates with = estimate(*makeVolPath(*lit, {.maxDepth = 1}), kAtFloor, 1 << 10),
+                  without = unlit(gas, nullptr, {.maxDepth = 1}, kAtFloor, 1 << 10);
+  // Light samples meet the ball about as often as they hit its box, and look at least once each time.
+  EXPECT_GT(lookups(with), lookups(without) + (1 << 10) / 100);
+  // What a medium counts is what there is to count.
+  RenderCounters counters;
+  Rng rng(1);
+  const std::unique_ptr<Medium> fire = patchyFire(1);
+  const auto volume = fire->emissionVolume({});
+  const MediumLight light({fire.get(), nullptr}, *volume);
+  EXPECT_FALSE(light.sample({4, 1, 2}, {0.3f, 0.6f}).radiance.isBlack()) << "and costs no look-up";
+  std::uint64_t found = 0;
+  for (int i = 0; i < 100; ++i) {
+    const LightSample s = light.sampleDirection({4, 1, 2}, {rng.uniform(), rng.uniform()}, 0);
+    found += fire->sampleEmission({{4, 1, 2}, s.wi, 0, 20}, rng, counters).count;
+  }
+  EXPECT_GT(found, 10u);
+  EXPECT_GE(counters.densityLookups, found);
 }
 
 }  // namespace
