@@ -14,6 +14,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kSources = {"exact", "constant", "progressive"};
 
 constexpr int kMaxCellsPerAxis = 1024;
+constexpr int kMostWarmUpPasses = 1024;
 constexpr std::int64_t kMaxCells = std::int64_t{1} << 27;  ///< 1.5 GiB of bounds
 
 WantedCells readCells(ParamReader& in) {
@@ -60,12 +61,13 @@ BoundsParams readBounds(ParamReader& in, BoundsParams::Source fallback) {
   p.cells = readCells(in);
   p.source = static_cast<BoundsParams::Source>(
       findOwnChoice(in, "bounds", kSources, static_cast<std::size_t>(fallback)));
-  const auto belongsTo = [&](BoundsParams::Source source, std::string_view name) {
-    if (p.source == source || !in.has(ParamKind::Float, name)) return p.source == source;
+  const auto belongsTo = [&](BoundsParams::Source source, std::string_view name,
+                             ParamKind kind = ParamKind::Float) {
+    if (p.source == source || !in.has(kind, name)) return p.source == source;
     std::string text = "needs \"string bounds\" \"";
     text += kSources[static_cast<std::size_t>(source)];
     text += '"';
-    in.error(ParamKind::Float, name, text);
+    in.error(kind, name, text);
     return false;
   };
   if (belongsTo(BoundsParams::Source::Constant, "majorant")) {
@@ -81,6 +83,8 @@ BoundsParams readBounds(ParamReader& in, BoundsParams::Source fallback) {
     p.epsilon = in.findFloat("epsilon", p.epsilon, Range::positive());
   if (belongsTo(BoundsParams::Source::Progressive, "boundslack"))
     p.slack = in.findFloat("boundslack", p.slack, Range::nonNegative());
+  if (belongsTo(BoundsParams::Source::Progressive, "warmup", ParamKind::Integer))
+    p.warmUpPasses = in.findInt("warmup", p.warmUpPasses, Range::closed(0, kMostWarmUpPasses));
   return p;
 }
 

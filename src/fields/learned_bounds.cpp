@@ -21,6 +21,10 @@ const LearnedBounds::Params& checked(const LearnedBounds::Params& p) {
   };
   require(p.initial > 0 && std::isfinite(p.initial), "the first bound must be a number above 0", p.initial);
   require(p.epsilon > 0 && std::isfinite(p.epsilon), "epsilon must be a number above 0", p.epsilon);
+  if (p.warmUpPasses < 0) {
+    throw SceneError(SourceLocation{}, "learned bounds: passes of warm-up must be 0 or more; found " +
+                                           std::to_string(p.warmUpPasses));
+  }
   require(p.slack >= 0 && std::isfinite(p.slack), "the slack must be a number of at least 0", p.slack);
   return p;
 }
@@ -32,7 +36,8 @@ LearnedBounds::LearnedBounds(const SuperVoxelLattice& cells, const Params& param
       inForce_(cells, SuperVoxel{params.initial, 0, SuperVoxel::kUnknownMean}),
       most_(std::make_unique<std::atomic<float>[]>(inForce_.storedCells())),
       least_(std::make_unique<std::atomic<float>[]>(inForce_.storedCells())),
-      cut_(std::make_unique<std::atomic<std::uint32_t>[]>(inForce_.storedCells())) {
+      cut_(std::make_unique<std::atomic<std::uint32_t>[]>(inForce_.storedCells())),
+      shortfall_(std::make_unique<std::atomic<std::uint64_t>[]>(inForce_.storedCells())) {
   for (std::size_t i = 0; i < inForce_.storedCells(); ++i) {
     most_[i].store(params.initial, std::memory_order_relaxed);
     least_[i].store(kUnseen, std::memory_order_relaxed);
@@ -44,15 +49,18 @@ LearnedBounds::LearnedBounds(const SuperVoxelLattice& cells, const Params& param
 void LearnedBounds::publish() {
   progress_.raised = progress_.visited = 0;
   progress_.cut = 0;
+  std::uint64_t shortfall = 0;
   inForce_.update([&](std::size_t cell, const SuperVoxel& old) {
     const float upper = most_[cell].load(std::memory_order_relaxed);
     const float least = least_[cell].load(std::memory_order_relaxed);
     progress_.raised += upper > old.upper;
     progress_.visited += least < kUnseen;
     progress_.cut += cut_[cell].exchange(0, std::memory_order_relaxed);
+    shortfall += shortfall_[cell].exchange(0, std::memory_order_relaxed);
     const float lower = least < kUnseen ? std::max(0.0f, least - params_.epsilon) : 0.0f;
     return SuperVoxel{std::max(upper, old.upper), lower, SuperVoxel::kUnknownMean};
   });
+  progress_.shortfall = static_cast<double>(shortfall) / static_cast<double>(kShortfallUnit);
   progress_.maximum = inForce_.maximum();
   ++progress_.passes;
 }
@@ -87,6 +95,7 @@ bool LearnedBounds::restore(const std::vector<float>& saved) {
     return SuperVoxel{upper, lower, SuperVoxel::kUnknownMean};
   });
   progress_.maximum = inForce_.maximum();
+  isRestored_ = true;
   return true;
 }
 

@@ -19,6 +19,7 @@ struct LearningProgress {
   std::size_t raised = 0;   ///< by the last publication
   std::size_t visited = 0;  ///< ever looked up in
   std::uint64_t cut = 0;    ///< look-ups of the last pass that found more than their bound and its slack
+  double shortfall = 0;     ///< the shares of their densities that they lost by it, added up
   float maximum = 0;        ///< largest bound
 };
 
@@ -31,6 +32,9 @@ struct LearningProgress {
 /// as every visited cell ends up bounding. Lower bounds are learned as the least density seen minus epsilon;
 /// they are controls only and cut nothing.
 ///
+/// The paper starts rendering at once, so its first passes see little of the medium. Whoever renders may
+/// explore before: bounds are then proposed from look-ups in every cell (exploreBounds), and put into force.
+///
 /// With a slack s > 0 densities up to (1 + s) times the bound pass uncut: trackers whose weights allow a
 /// bound slightly too low stay unbiased there, and the bounds themselves stay lower by the same factor.
 class LearnedBounds {
@@ -39,6 +43,7 @@ class LearnedBounds {
     float initial = 0.01f;  ///< bound of every cell before the first pass, > 0
     float epsilon = 0.01f;  ///< added to a density that is proposed as a bound, > 0
     float slack = 0;        ///< >= 0
+    int warmUpPasses = 0;   ///< of exploration before the first pass, >= 0; the paper: none
   };
 
   /// Throws SceneError (location unknown) when a parameter is out of range.
@@ -55,15 +60,26 @@ class LearnedBounds {
     const float limit = bound * (1 + params_.slack);
     if (!(density > limit)) return density;
     cut_[cell].fetch_add(1, std::memory_order_relaxed);
+    // Whole numbers, so that their sum does not depend on the order.
+    shortfall_[cell].fetch_add(static_cast<std::uint32_t>((1 - limit / density) * kShortfallUnit),
+                               std::memory_order_relaxed);
     return limit;
   }
+  /// Notes a density found in a stored cell, whatever its bound. Thread-safe.
+  void propose(std::size_t cell, float density) const;
+  /// How often to explore before the first pass: not at all for what has learned already.
+  int warmUpPasses() const { return hasStarted() ? 0 : params_.warmUpPasses; }
+  /// Something was published, or restored.
+  bool hasStarted() const { return progress_.passes > 0 || isRestored_; }
+  /// Started from the numbers of another render.
+  bool isRestored() const { return isRestored_; }
   /// Nothing was published yet, or the last publication raised some bound.
   bool isExploring() const { return progress_.passes == 0 || progress_.raised > 0; }
   /// Puts what was proposed into force. Not thread-safe.
   void publish();
   LearningProgress progress() const { return progress_; }
   std::size_t bytesOfProposals() const {
-    return inForce_.storedCells() * (2 * sizeof(float) + sizeof(std::uint32_t));
+    return inForce_.storedCells() * (2 * sizeof(float) + sizeof(std::uint32_t) + sizeof(std::uint64_t));
   }
 
   /// The bounds in force as numbers, cell by cell, x fastest: upper then lower; for a cache.
@@ -72,24 +88,28 @@ class LearnedBounds {
   bool restore(const std::vector<float>& saved);
 
  private:
-  void propose(std::size_t cell, float density) const {
-    const float wanted = (density + params_.epsilon) / (1 + params_.slack);
-    std::atomic<float>& most = most_[cell];
-    for (float seen = most.load(std::memory_order_relaxed);
-         wanted > seen && !most.compare_exchange_weak(seen, wanted, std::memory_order_relaxed);) {
-    }
-    std::atomic<float>& least = least_[cell];
-    for (float seen = least.load(std::memory_order_relaxed);
-         density < seen && !least.compare_exchange_weak(seen, density, std::memory_order_relaxed);) {
-    }
-  }
+  static constexpr float kShortfallUnit = 0x1p16f;
 
   Params params_;
   SuperVoxels inForce_;
   std::unique_ptr<std::atomic<float>[]> most_, least_;  ///< proposals, one per stored cell
   /// Look-ups cut in this pass. One counter a cell, as threads would queue for a common one.
   std::unique_ptr<std::atomic<std::uint32_t>[]> cut_;
+  std::unique_ptr<std::atomic<std::uint64_t>[]> shortfall_;  ///< in shares of 1 / kShortfallUnit
   LearningProgress progress_;
+  bool isRestored_ = false;
 };
+
+inline void LearnedBounds::propose(std::size_t cell, float density) const {
+  const float wanted = (density + params_.epsilon) / (1 + params_.slack);
+  std::atomic<float>& most = most_[cell];
+  for (float seen = most.load(std::memory_order_relaxed);
+       wanted > seen && !most.compare_exchange_weak(seen, wanted, std::memory_order_relaxed);) {
+  }
+  std::atomic<float>& least = least_[cell];
+  for (float seen = least.load(std::memory_order_relaxed);
+       density < seen && !least.compare_exchange_weak(seen, density, std::memory_order_relaxed);) {
+  }
+}
 
 }  // namespace pbrtmedia

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "fields/explore_bounds.h"
 #include "fields/lattice_walk.h"
 #include "fields/learned_bounds.h"
 
@@ -45,6 +46,12 @@ class UnprovenField {
 
   /// The field's own density, not cut; nothing is learned of it.
   float uncutDensity(Vec3d p) const { return field_.density(p); }
+
+  /// Before rendering: explores cells of learned bounds (exploreBounds). Answers the look-ups made.
+  std::uint64_t explore(std::size_t firstCell, std::size_t lastCell, std::uint64_t seed) const {
+    if (!learned_) return 0;
+    return exploreBounds(*learned_, firstCell, lastCell, seed, [&](Vec3d p) { return field_.density(p); });
+  }
 
   decltype(auto) localFromWorld() const { return field_.localFromWorld(); }
   decltype(auto) worldFromLocal() const { return field_.worldFromLocal(); }

@@ -19,6 +19,10 @@ constexpr std::size_t kPassBytes = std::size_t{64} << 20;
 constexpr std::uint64_t kPatternTag = 0x7074726e;
 /// "path" in ASCII: keeps the Rng of samples apart from other uses of the same seed.
 constexpr std::uint64_t kRngTag = 0x70617468;
+/// "warm" in ASCII: the same for the exploration of bounds.
+constexpr std::uint64_t kWarmUpTag = 0x7761726d;
+/// One thread explores this many super-voxels at a time, or a share of all.
+constexpr std::size_t kLeastCells = 64, kMostChunks = 4096;
 constexpr double kProgressInterval = 0.1;  // seconds
 
 /// A rectangle of the film that one thread renders, and what came out besides radiance.
@@ -71,7 +75,12 @@ class RenderLoop {
         bounds_(film.sampleBounds()),
         samplesPerPixel_(options.samplesPerPixel.value_or(sampler.samplesPerPixel())) {
     if (options.pixelBounds) bounds_ = intersect(bounds_, *options.pixelBounds);
-    for (const Medium* learner : options.learners) result_.learning.push_back({learner->name(), {}});
+    for (Medium* learner : options.learners) {
+      LearningRecord record;
+      record.medium = learner->name();
+      record.restored = learner->learnedBounds()->isRestored();
+      result_.learning.push_back(std::move(record));
+    }
   }
 
   RenderResult run() {
@@ -79,6 +88,7 @@ class RenderLoop {
     result_.samplesTotal =
         area * static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel_ - options_.firstSample, 0));
     result_.completedSamplesPerPixel = options_.firstSample;
+    if (result_.samplesTotal > 0) warmUp();
     std::int64_t next = options_.firstSample;
     for (int pass = 0; area > 0 && next < samplesPerPixel_ && !shouldStop(); ++pass) {
       const auto count = static_cast<int>(std::min<std::int64_t>(passSize(pass), samplesPerPixel_ - next));
@@ -124,6 +134,7 @@ class RenderLoop {
     parallelFor(tiles.size(), [&](std::size_t i) { renderTile(tiles[i], pass, first, count); });
     film_.accumulate(pass);
     bool complete = true;
+    const std::uint64_t lookupsBefore = result_.counters.densityLookups;
     for (const Tile& tile : tiles) {
       complete &= tile.complete;
       result_.samplesTaken += tile.samples;
@@ -132,15 +143,46 @@ class RenderLoop {
       mergeRecords(result_.mismatches, tile.mismatches, options_.maxRecords);
       mergeRecords(result_.violations, tile.violations, options_.maxRecords);
     }
-    publishLearned();
+    publishLearned(result_.counters.densityLookups - lookupsBefore);
     return complete;
   }
 
-  void publishLearned() {
+  /// Explores the bounds that nobody knows anything of, and puts what was found into force.
+  void warmUp() {
+    for (std::size_t i = 0; i < options_.learners.size(); ++i) {
+      const Medium& medium = *options_.learners[i];
+      LearnedBounds& bounds = *options_.learners[i]->learnedBounds();
+      LearningRecord& record = result_.learning[i];
+      record.warmUpPasses = bounds.warmUpPasses();
+      if (record.warmUpPasses == 0) continue;
+      const std::size_t cells = bounds.inForce().cellCount();
+      const std::size_t chunk = std::max(kLeastCells, cells / kMostChunks),
+                        chunks = (cells + chunk - 1) / chunk;
+      const std::uint64_t seed = hashCombine(options_.seed, kWarmUpTag, static_cast<std::uint64_t>(i));
+      std::vector<RenderCounters> counters(chunks);
+      parallelFor(chunks, [&](std::size_t c) {
+        if (shouldStop()) return;
+        medium.exploreBounds(c * chunk, std::min(cells, (c + 1) * chunk), seed, counters[c]);
+      });
+      for (const RenderCounters& c : counters) {
+        record.warmUpLookups += c.densityLookups;
+        result_.counters.add(c);
+      }
+      bounds.publish();
+      record.warmUp = bounds.progress();
+    }
+  }
+
+  /// `lookups`: of all media in the pass.
+  void publishLearned(std::uint64_t lookups) {
+    passLookups_ += lookups;
     for (std::size_t i = 0; i < options_.learners.size(); ++i) {
       LearnedBounds& bounds = *options_.learners[i]->learnedBounds();
+      LearningRecord& record = result_.learning[i];
       bounds.publish();
-      result_.learning[i].passes.push_back(bounds.progress());
+      record.passes.push_back(bounds.progress());
+      shortfalls_[i] += bounds.progress().shortfall;
+      record.shortfall = passLookups_ > 0 ? shortfalls_[i] / static_cast<double>(passLookups_) : 0;
     }
   }
 
@@ -204,6 +246,8 @@ class RenderLoop {
   std::int64_t samplesPerPixel_;
   Stopwatch watch_;
   RenderResult result_;
+  std::vector<double> shortfalls_ = std::vector<double>(options_.learners.size());
+  std::uint64_t passLookups_ = 0;  ///< of all passes of samples
   std::atomic<std::uint64_t> samplesDone_{0};
   std::mutex progressMutex_;
   double lastReport_ = 0;

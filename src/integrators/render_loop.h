@@ -40,7 +40,8 @@ struct RenderOptions {
   std::size_t maxRecords = 16;  ///< dropped samples, violations and mismatches that are kept
   /// Media whose bounds are learned (Medium::learnedBounds). If there are any, every pass takes one sample of
   /// each pixel, whatever samplesPerPass says, and publishes what it learned: so pass k sees the same bounds
-  /// for any threads and tiles.
+  /// for any threads and tiles. Those that have learned nothing yet are explored before the first pass
+  /// (Medium::exploreBounds); that takes part of the time limit.
   std::vector<Medium*> learners{};
 };
 
@@ -63,7 +64,18 @@ struct ViolationRecord {
 /// How the bounds of one medium were learned.
 struct LearningRecord {
   std::string medium;
-  std::vector<LearningProgress> passes;  ///< after each publication
+  bool restored = false;                 ///< from the bounds of another render
+  int warmUpPasses = 0;                  ///< before the first sample
+  std::uint64_t warmUpLookups = 0;       ///< part of RenderCounters::densityLookups
+  LearningProgress warmUp{};             ///< after them
+  std::vector<LearningProgress> passes;  ///< of samples, after each publication
+  /// By how much densities that samples looked up were cut, as a share of them, on average: about the share
+  /// of the medium's extinction that the image lacks.
+  double shortfall = 0;
+
+  /// Whether that is more than anybody should call the medium.
+  bool isRising() const { return passes.empty() ? !restored : shortfall > kMostShortfall; }
+  static constexpr double kMostShortfall = 1e-3;
 };
 
 struct RenderResult {

@@ -103,6 +103,8 @@ Image withHeader(Image image, const RenderStatistics& statistics, const Options&
   image.metadata["samples"] = samplesPerPixelText(statistics);
   image.metadata["seconds"] = seconds.str();
   addIdentity(image, identity);
+  const std::string bounds = boundsState(statistics.learning);
+  if (!bounds.empty()) image.metadata["boundsState"] = bounds;
   return image;
 }
 
@@ -219,7 +221,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   statistics.peakMemory = peakMemoryBytes();
 
   std::cerr << describeFaults(result, options);
-  if (!options.quiet) std::cerr << describeComplaints(*scene->scene);
+  if (!options.quiet) std::cerr << describeRisingBounds(result.learning) << describeComplaints(*scene->scene);
   if (!options.quiet) std::cerr << formatStatistics(statistics);
   const bool isFaulty = result.counters.droppedTotal() > 0 || result.counters.boundViolations > 0;
   if (options.strict && isFaulty && status == 0) status = kExitStrict;

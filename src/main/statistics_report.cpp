@@ -52,7 +52,13 @@ nlohmann::ordered_json toJson(const LearningRecord& record) {
                       {"largestBound", p.maximum}});
   }
   return {{"medium", record.medium},
-          {"cells", record.passes.empty() ? 0 : record.passes.back().cells},
+          {"cells", record.passes.empty() ? record.warmUp.cells : record.passes.back().cells},
+          {"restored", record.restored},
+          {"warmUp",
+           {{"passes", record.warmUpPasses},
+            {"densityLookups", record.warmUpLookups},
+            {"largestBound", record.warmUp.maximum}}},
+          {"shortfall", record.shortfall},
           {"passes", passes}};
 }
 
@@ -110,6 +116,10 @@ std::string formatStatistics(const RenderStatistics& s) {
   }
   for (const LearningRecord& record : s.learning) {
     if (record.passes.empty()) continue;
+    if (record.warmUpPasses > 0) {
+      os << "  bounds    \"" << record.medium << "\": " << record.warmUpPasses << " passes of warm-up took "
+         << formatCount(static_cast<double>(record.warmUpLookups)) << " lookups\n";
+    }
     const LearningProgress& last = record.passes.back();
     os << "  bounds    \"" << record.medium << "\": " << last.visited << " of " << last.cells
        << " super-voxels visited, " << 100 * boundingShare(last) << " % of them bounding in the last pass, "

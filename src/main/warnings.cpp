@@ -54,6 +54,34 @@ std::string describeFaults(const RenderResult& result, const Options& options) {
   return os.str();
 }
 
+std::string boundsState(const std::vector<LearningRecord>& learning) {
+  if (learning.empty()) return "";
+  bool cached = true, rising = false;
+  for (const LearningRecord& record : learning) {
+    cached &= record.restored;
+    rising |= record.isRising();
+  }
+  return cached ? "cached" : rising ? "rising" : "settled";
+}
+
+std::string describeRisingBounds(const std::vector<LearningRecord>& learning) {
+  std::ostringstream os;
+  os.precision(2);
+  for (const LearningRecord& record : learning) {
+    if (!record.isRising()) continue;
+    os << "pbrt: warning: the progressive bounds of medium \"" << record.medium << "\" ";
+    if (record.passes.empty()) {
+      os << "are not known yet: the image has no samples";
+    } else {
+      os << "were still rising: about " << 100 * record.shortfall
+         << " % of its extinction are missing in the image. More samples, more passes of \"integer warmup\" "
+            "or a second run with --bounds-cache come closer";
+    }
+    os << ".\n";
+  }
+  return os.str();
+}
+
 std::string describeComplaints(const Scene& scene) {
   std::string text;
   for (const Medium* medium : scene.media()) {

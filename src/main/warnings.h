@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "integrators/render_loop.h"
 #include "integrators/scene.h"
@@ -13,6 +14,14 @@ namespace pbrtmedia {
 /// of them (pixel, sample, seed), violated density bounds, boundaries that contradict each other. Empty when
 /// all was well.
 std::string describeFaults(const RenderResult& result, const Options& options);
+
+/// Where learned bounds of media stand at the end of a render, for the image header: "cached" when they came
+/// from a cache, else "rising" when some were too low for too many look-ups, else "settled". Empty when none
+/// are learned.
+std::string boundsState(const std::vector<LearningRecord>& learning);
+
+/// A warning for every medium whose learned bounds were too low for too many look-ups. Empty when none were.
+std::string describeRisingBounds(const std::vector<LearningRecord>& learning);
 
 /// What was wrong with the densities of media, a warning each. Empty when nothing was.
 std::string describeComplaints(const Scene& scene);

@@ -20,6 +20,7 @@ struct BoundsParams {
   float initialExtinction = 0.01f;  ///< Progressive only, as below: before the first pass, > 0
   float epsilon = 0.01f;            ///< added to an extinction that is proposed as a bound, > 0
   float slack = 0;                  ///< LearnedBounds::Params::slack, >= 0
+  int warmUpPasses = 4;             ///< LearnedBounds::Params::warmUpPasses, >= 0
 };
 
 }  // namespace pbrtmedia

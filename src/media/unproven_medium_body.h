@@ -27,7 +27,8 @@ std::unique_ptr<Medium> unprovenMedium(const FieldMediumParams& params, std::str
     const SuperVoxel bound{densityOf(b.majorant), 0, SuperVoxel::kUnknownMean};
     return made(UnprovenField<Field>(std::move(field), SuperVoxels(cells, bound)));
   }
-  const LearnedBounds::Params learn{densityOf(b.initialExtinction), densityOf(b.epsilon), b.slack};
+  const LearnedBounds::Params learn{densityOf(b.initialExtinction), densityOf(b.epsilon), b.slack,
+                                    b.warmUpPasses};
   return made(UnprovenField<Field>(std::move(field), cells, learn));
 }
 

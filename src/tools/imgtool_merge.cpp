@@ -112,6 +112,15 @@ void requireSameScene(const NamedImage& first, const NamedImage& other) {
   }
 }
 
+/// Parts that each began with unknown bounds lack the same extinction, and so does their average, however
+/// many there are: one long render would have grown out of it.
+void requireKnownBounds(const NamedImage& input) {
+  if (metadata(input.image, "boundsState").value_or("") != "rising") return;
+  fail(input.name,
+       "its progressive bounds were still rising (metadata \"boundsState\"), and an average of such parts "
+       "stays wrong: let one render learn them with pbrt --bounds-cache FILE, then render the parts with it");
+}
+
 void addWeighted(std::vector<double>& sum, const NamedImage& input, double weight) {
   const std::vector<float>& values = input.image.data();
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -164,6 +173,7 @@ Image mergeRenders(const std::vector<NamedImage>& inputs) {
   std::vector<double> sum(inputs.front().image.data().size());
   for (const NamedImage& input : inputs) {
     requireSameScene(inputs.front(), input);
+    if (inputs.size() > 1) requireKnownBounds(input);
     for (const std::uint64_t seed : seedsOf(input)) {
       const auto [owner, isNew] = owners.emplace(seed, input.name);
       if (!isNew) {
@@ -180,7 +190,7 @@ Image mergeRenders(const std::vector<NamedImage>& inputs) {
   Image out = inputs.front().image;
   for (std::size_t i = 0; i < sum.size(); ++i) out.data()[i] = static_cast<float>(sum[i] / totalSamples);
   out.metadata.clear();
-  for (const char* key : {"sceneHash", "sceneText", "mediumParams", "sceneFiles"})
+  for (const char* key : {"sceneHash", "sceneText", "mediumParams", "sceneFiles", "boundsState"})
     keepCommon(inputs, key, out);
   std::vector<const Image*> images;
   for (const NamedImage& input : inputs) images.push_back(&input.image);

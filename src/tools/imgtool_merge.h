@@ -18,8 +18,9 @@ struct NamedImage {
 /// "samples" and "seconds" of the result are sums, "seed" lists all seeds, "command" and "version" those that
 /// differ, a line each; what tells the scene stays. Throws std::runtime_error naming the files for: no input,
 /// no or senseless "samples" or "seed", different size, windows, channels or "sceneHash", a seed that occurs
-/// twice, or a value that is not finite. For a filter wider than a pixel the result is close to one long
-/// render, not equal to it: each input is already divided by its own filter weights.
+/// twice, a value that is not finite, or several of which one was rendered while bounds were being learned
+/// ("boundsState" is "rising"). For a filter wider than a pixel the result is close to one long render, not
+/// equal to it: each input is already divided by its own filter weights.
 Image mergeRenders(const std::vector<NamedImage>& inputs);
 
 struct MergeOptions {

@@ -162,6 +162,13 @@ TEST(ConstructBounds, NumbersAreExtinctionsOfTheLargestChannel) {
   EXPECT_EQ(bounds.inForce().maximum(), .25f);
   EXPECT_EQ(bounds.params().epsilon, .1f);
   EXPECT_EQ(bounds.params().slack, .5f);
+  EXPECT_EQ(bounds.params().warmUpPasses, 4);
+  EXPECT_EQ(with(kGrid + "\"string bounds\" \"progressive\" \"integer warmup\" 7")
+                .made->scene->media()[0]
+                ->learnedBounds()
+                ->params()
+                .warmUpPasses,
+            7);
   EXPECT_EQ(with(kGrid + "\"string bounds\" \"progressive\"")
                 .made->scene->media()[0]
                 ->learnedBounds()
@@ -186,6 +193,8 @@ TEST(ConstructBounds, SaysWhatIsWrong) {
                   {kGrid + progressive + "\"float initialextinction\" 0", "found 0, expected > 0", ""},
                   {kGrid + progressive + "\"float epsilon\" 0", "found 0, expected > 0", ""},
                   {kGrid + progressive + "\"float boundslack\" -1", "found -1, expected >= 0", ""},
+                  {kGrid + "\"integer warmup\" 2", "\"warmup\": needs \"string bounds\" \"progressive\"", ""},
+                  {kGrid + progressive + "\"integer warmup\" -1", "found -1, expected", ""},
                   {kGrid + "\"float densityslack\" 1", "unknown parameter \"densityslack\"", "", kTolerated}},
                  with);
 }

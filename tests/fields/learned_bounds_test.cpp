@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 #include <vector>
 
+#include "base/diagnostics.h"
 #include "base/rng.h"
 #include "fields/constant_field.h"
+#include "fields/explore_bounds.h"
 #include "fields/field_line.h"
 #include "fields/unproven_field.h"
 
@@ -98,6 +101,53 @@ TEST(LearnedBounds, DependOnNeitherThreadsNorOrder) {
     results.push_back(bounds.save());
   }
   EXPECT_EQ(results[0], results[1]);
+}
+
+TEST(LearnedBounds, TellHowMuchTheyCutAway) {
+  LearnedBounds bounds(lattice(1), {.initial = 1, .epsilon = .5f});
+  bounds.bounded({.5, .5, .5}, .5f);
+  bounds.bounded({.5, .5, .5}, 4);
+  bounds.bounded({.5, .5, .5}, 2);
+  bounds.publish();
+  EXPECT_EQ(bounds.progress().shortfall, .75 + .5);
+  bounds.bounded({.5, .5, .5}, 4);
+  bounds.publish();
+  EXPECT_EQ(bounds.progress().shortfall, 0);
+}
+
+TEST(LearnedBounds, AreExploredToTheTopOfEveryCell) {
+  // In each cell a hill of its own height, of a standard deviation of a fifth of the cell.
+  const auto hills = [](Vec3d p) {
+    const Vec3d cell{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
+    const Vec3d d = p - cell - Vec3d(.3, .6, .45);
+    return static_cast<float>((1 + cell.x + 2 * cell.y) * std::exp(-lengthSquared(d) / .08));
+  };
+  LearnedBounds bounds(lattice(3), {.initial = .01f, .epsilon = .001f, .warmUpPasses = 4});
+  ASSERT_EQ(bounds.warmUpPasses(), 4);
+  EXPECT_EQ(exploreBounds(bounds, 0, 27, kSeed, hills), 27u * 4 * 16);
+  EXPECT_EQ(bounds.inForce().maximum(), .01f) << "not before they are published";
+  bounds.publish();
+  EXPECT_EQ(bounds.warmUpPasses(), 0) << "once is enough";
+  for (std::int64_t k = 0; k < 3; ++k) {
+    for (std::int64_t j = 0; j < 3; ++j) {
+      for (std::int64_t i = 0; i < 3; ++i) {
+        const float top = static_cast<float>(1 + i + 2 * j);
+        EXPECT_GT(bounds.inForce().at(i, j, k).upper, .9f * top);
+        EXPECT_LE(bounds.inForce().at(i, j, k).upper, top + .002f);
+      }
+    }
+  }
+  // In parts, and in any order, it is the same; from another seed it is not.
+  LearnedBounds parts(lattice(3), bounds.params()), other(lattice(3), bounds.params());
+  exploreBounds(parts, 20, 27, kSeed, hills);
+  exploreBounds(parts, 0, 11, kSeed, hills);
+  exploreBounds(parts, 11, 20, kSeed, hills);
+  parts.publish();
+  EXPECT_EQ(parts.save(), bounds.save());
+  exploreBounds(other, 0, 27, kSeed + 1, hills);
+  other.publish();
+  EXPECT_NE(other.save(), bounds.save());
+  EXPECT_THROW(LearnedBounds(lattice(1), {.warmUpPasses = -1}), SceneError);
 }
 
 TEST(LearnedBounds, LetDensitiesPassWithinTheSlack) {

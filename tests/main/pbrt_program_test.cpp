@@ -342,7 +342,8 @@ std::string learningScene(const std::string& more = "") {
          "Sampler \"random\" \"integer pixelsamples\" 64\nIntegrator \"volpath\"\n"
          "LookAt .5 .5 -2  .5 .5 0  0 1 0 Camera \"perspective\" \"float fov\" 20\nWorldBegin\n"
          "LightSource \"infinite\"\nMakeNamedMedium \"fog\" \"string type\" \"analytic\" \"string function\" "
-         "\"ramp\" \"integer supervoxels\" 1 \"string bounds\" \"progressive\" \"float epsilon\" 20 " +
+         "\"ramp\" \"integer supervoxels\" 1 \"string bounds\" \"progressive\" \"integer warmup\" 0 \"float "
+         "epsilon\" 20 " +
          more +
          "\nMaterial \"none\" MediumInterface \"fog\" \"\"\nTranslate .5 .5 .5\nShape \"sphere\" \"float "
          "radius\" 1.5\n"
@@ -376,6 +377,38 @@ TEST_F(Pbrt, KeepsLearnedBoundsForTheNextRender) {
       << other.output;
 }
 
+TEST_F(Pbrt, SaysWhetherLearnedBoundsHadSettled) {
+  // As in the paper, without a warm-up, two samples see little; explored, or with the bounds of an earlier
+  // render, they see all.
+  const auto stateOf = [&](const std::string& file) {
+    return readImage(folder_.path() / file).metadata.at("boundsState");
+  };
+  std::string scene = learningScene();
+  folder_.write("blind.pbrt", scene);
+  const auto warmUp = scene.find("\"integer warmup\" 0");
+  ASSERT_NE(warmUp, std::string::npos);
+  scene.erase(warmUp, 18);
+  folder_.write("a.pbrt", scene);
+  const ProcessResult blind = pbrt("--spp 2 --outfile blind.exr blind.pbrt");
+  EXPECT_EQ(blind.status, 0);
+  EXPECT_NE(blind.output.find("bounds of medium \"fog\" were still rising"), std::string::npos)
+      << blind.output;
+  EXPECT_EQ(stateOf("blind.exr"), "rising");
+  const ProcessResult warm = pbrt("--spp 2 --stats s.json --bounds-cache b.bounds --outfile warm.exr a.pbrt");
+  EXPECT_EQ(warm.output.find("still rising"), std::string::npos) << warm.output;
+  EXPECT_NE(warm.output.find("4 passes of warm-up took 64 lookups"), std::string::npos) << warm.output;
+  EXPECT_EQ(stateOf("warm.exr"), "settled");
+  const auto learned = [&] {
+    return nlohmann::json::parse(folder_.read("s.json"))["renders"][0]["learnedBounds"][0];
+  };
+  EXPECT_EQ(learned()["warmUp"]["densityLookups"], 64);
+  const ProcessResult cached = pbrt("--spp 2 --stats s.json --bounds-cache b.bounds --outfile c.exr a.pbrt");
+  EXPECT_EQ(cached.output.find("warm-up"), std::string::npos) << cached.output;
+  EXPECT_EQ(stateOf("c.exr"), "cached");
+  EXPECT_EQ(learned()["warmUp"]["densityLookups"], 0);
+  EXPECT_EQ(learned()["restored"], true);
+}
+
 TEST_F(Pbrt, RefusesABrokenBoundsCacheAndWarnsOfAUselessOne) {
   folder_.write("a.pbrt", learningScene());
   folder_.write("b.bounds", "something else");
@@ -394,7 +427,8 @@ TEST_F(Pbrt, RefusesABrokenBoundsCacheAndWarnsOfAUselessOne) {
 TEST_F(Pbrt, TellsTheRayOfAViolatedBoundAndStrictMinds) {
   std::string scene = learningScene("\"float majorant\" 0.5");
   scene.replace(scene.find("progressive"), 11, "constant");
-  scene.replace(scene.find("\"float epsilon\" 20"), 18, "");
+  const auto first = scene.find("\"integer warmup\" 0"), last = scene.find("20 \"float majorant\"");
+  scene.erase(first, last + 2 - first);
   folder_.write("a.pbrt", scene);
   const ProcessResult r = pbrt("--strict a.pbrt");
   EXPECT_EQ(r.status, 2);

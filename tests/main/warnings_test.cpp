@@ -40,6 +40,35 @@ TEST(DescribeFaults, TellsViolatedBoundsWithTheirRay) {
       << text;
 }
 
+LearningRecord learned(double shortfall, bool restored = false) {
+  LearningRecord record;
+  record.medium = "smoke";
+  record.restored = restored;
+  record.shortfall = shortfall;
+  record.passes.resize(3);
+  return record;
+}
+
+TEST(DescribeRisingBounds, TellsWhatIsMissing) {
+  EXPECT_EQ(describeRisingBounds({}), "");
+  EXPECT_EQ(describeRisingBounds({learned(0), learned(1e-4)}), "");
+  const std::string text = describeRisingBounds({learned(0), learned(.25)});
+  EXPECT_TRUE(has(text, "warning: the progressive bounds of medium \"smoke\" were still rising")) << text;
+  EXPECT_TRUE(has(text, "about 25 % of its extinction are missing")) << text;
+  LearningRecord empty;
+  empty.medium = "smoke";
+  EXPECT_TRUE(has(describeRisingBounds({empty}), "not known yet"));
+}
+
+TEST(BoundsState, IsThatOfTheWorst) {
+  EXPECT_EQ(boundsState({}), "");
+  EXPECT_EQ(boundsState({learned(1e-4)}), "settled");
+  EXPECT_EQ(boundsState({learned(1e-4), learned(.25)}), "rising");
+  EXPECT_EQ(boundsState({learned(0, true)}), "cached");
+  EXPECT_EQ(boundsState({learned(0, true), learned(0)}), "settled");
+  EXPECT_EQ(boundsState({learned(0, true), learned(.25)}), "rising");
+}
+
 TEST(DescribeFaults, LeavesOutRemarksWhenQuiet) {
   RenderResult result;
   result.counters.cappedEstimates = 6;

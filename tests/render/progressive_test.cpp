@@ -10,7 +10,10 @@
 namespace pbrtmedia::test {
 namespace {
 
-const std::string kUnknown = " \"string bounds\" \"progressive\" \"float initialextinction\" 0.01 ";
+/// Explored before the first sample, as is the default.
+const std::string kExplored = " \"string bounds\" \"progressive\" \"float initialextinction\" 0.01 ";
+/// As in the paper: nothing is known before the first pass.
+const std::string kUnknown = kExplored + "\"integer warmup\" 0 ";
 
 /// A square of parallel rays along z through the unit cube, which holds the medium; white all around.
 std::string cube(int resolution, int spp, const std::string& medium, int maxDepth = 5) {
@@ -153,6 +156,80 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"GridByMarching", grid, "\"string transmittance\" \"unbiased-ray-marching\" "},
         Case{"PerlinBySingleParticle", perlin, "\"string freeflight\" \"single-particle\" "}),
     [](const auto& value) { return std::string(value.param.name); });
+
+TEST_P(ProgressiveImage, IsRightFromTheFirstSampleAfterAWarmUp) {
+  // The mean of many renders of one sample a pixel, as merged parts are.
+  const std::string ways = GetParam().ways;
+  const auto scene = [&](const std::string& bounds) { return cube(16, 1, GetParam().medium(ways + bounds)); };
+  RunningStats exact, explored, unknown;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    exact.add(imageMean(renderText(scene(""), {.seed = seed}).image));
+    const Rendered part = renderText(scene(kExplored), {.seed = seed + 1000});
+    explored.add(imageMean(part.image));
+    EXPECT_FALSE(part.result.learning[0].isRising()) << part.result.learning[0].shortfall;
+    const Rendered blind = renderText(scene(kUnknown), {.seed = seed + 2000});
+    unknown.add(imageMean(blind.image));
+    EXPECT_TRUE(blind.result.learning[0].isRising()) << blind.result.learning[0].shortfall;
+  }
+  const ZTest same = zTest(explored, exact), blind = zTest(unknown, exact);
+  EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
+  EXPECT_GT(std::abs(blind.z()), kMaxAbsZ) << "negative control: " << blind;
+}
+
+TEST_P(ProgressiveImage, DependsOnNoThreadAfterAWarmUp) {
+  const std::string scene = cube(21, 2, GetParam().medium(GetParam().ways + kExplored));
+  const Rendered one = renderText(scene, {.seed = 5, .threads = 1});
+  for (const RenderSettings& settings :
+       {RenderSettings{5, 2, 16, {}}, RenderSettings{5, 5, 16, {}}, RenderSettings{5, 2, 4, {}}}) {
+    const Rendered other = renderText(scene, settings);
+    EXPECT_EQ(one.image.data(), other.image.data()) << settings.threads << " threads";
+    EXPECT_EQ(one.result.counters.densityLookups, other.result.counters.densityLookups);
+    EXPECT_EQ(one.result.learning[0].warmUpLookups, other.result.learning[0].warmUpLookups);
+    EXPECT_EQ(one.result.learning[0].warmUp.maximum, other.result.learning[0].warmUp.maximum);
+    EXPECT_EQ(one.result.learning[0].shortfall, other.result.learning[0].shortfall);
+  }
+  EXPECT_NE(one.image.data(), renderText(scene, {.seed = 6}).image.data());
+}
+
+TEST(Progressive, AWarmUpFindsTheNeedle) {
+  RunningStats few;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    few.add(imageMean(renderText(cube(24, 1, needle(kExplored)), {.seed = seed}).image));
+  }
+  const ZTest test = zTest(few, kNeedle, 1);
+  EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+  EXPECT_LT(test.standardError, .002) << "unseen it is off by a half";
+}
+
+TEST(Progressive, AWarmUpIsCountedAndTakenOnce) {
+  const std::string scene = cube(8, 2, grid(kExplored + "\"integer warmup\" 3 \"integer supervoxels\" 2 "));
+  const Rendered first = renderText(scene, {.seed = 2});
+  const LearningRecord& record = first.result.learning[0];
+  EXPECT_EQ(record.warmUpPasses, 3);
+  EXPECT_EQ(record.warmUpLookups, 8u * 3 * 16);
+  EXPECT_EQ(record.passes.size(), 2u) << "no pass of the image";
+  EXPECT_GT(record.warmUp.maximum, 2.4f);
+  const Rendered blind = renderText(cube(8, 2, grid(kUnknown + "\"integer supervoxels\" 2 ")), {.seed = 2});
+  EXPECT_EQ(blind.result.learning[0].warmUpLookups, 0u);
+  EXPECT_GT(first.result.counters.densityLookups, record.warmUpLookups);
+  // What starts from the bounds of another render needs none.
+  const LearningRecord next = continued(scene, 1, 2).result.learning[0];
+  EXPECT_TRUE(next.restored);
+  EXPECT_EQ(next.warmUpPasses, 0);
+  EXPECT_EQ(next.warmUpLookups, 0u);
+}
+
+TEST(Progressive, AWarmUpStopsWithTheRender) {
+  const Construction made = constructText(cube(8, 2, perlin(kExplored)));
+  RenderOptions loop;
+  loop.learners = made.scene->learners();
+  const std::atomic<bool> stop{true};
+  loop.stop = &stop;
+  const RenderResult result = renderFilm(*made.camera, *made.sampler, *made.integrator, *made.film, loop);
+  EXPECT_EQ(result.learning[0].warmUpLookups, 0u);
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_TRUE(result.learning[0].isRising());
+}
 
 TEST(Progressive, ASecondRenderStartsWithoutViolations) {
   const std::string scene = cube(16, 8, grid(kUnknown + "\"float epsilon\" 0.5 "));

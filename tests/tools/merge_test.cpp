@@ -121,6 +121,18 @@ TEST(MergeRenders, RefusesRendersThatDoNotBelongTogether) {
   expectRefused({a, channels}, "different channels");
 }
 
+TEST(MergeRenders, RefusesPartsWhoseBoundsWereStillRising) {
+  NamedImage a = render("a.exr", 1, "4", "1"), b = render("b.exr", 1, "4", "2");
+  for (const char* state : {"settled", "cached"}) {
+    a.image.metadata["boundsState"] = b.image.metadata["boundsState"] = state;
+    EXPECT_EQ(mergeRenders({a, b}).metadata.at("boundsState"), state);
+  }
+  b.image.metadata["boundsState"] = "rising";
+  expectRefused({a, b}, "b.exr: its progressive bounds were still rising");
+  expectRefused({b, a}, "--bounds-cache");
+  EXPECT_EQ(mergeRenders({b}).metadata.at("boundsState"), "rising") << "one alone is what it is";
+}
+
 TEST(MergeRenders, RefusesMissingOrSenselessCountsAndSeeds) {
   for (const char* samples : {"", "0", "-4", "many", "nan", "inf", "4 "}) {
     expectRefused({render("a.exr", 1, samples, "1")}, "metadata \"samples\" should be");
