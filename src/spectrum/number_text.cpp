@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -121,16 +120,6 @@ std::vector<SpectralSample> parseSpectrumText(std::string_view text, const std::
   samples.reserve(numbers.size() / 2);
   for (std::size_t i = 0; i < numbers.size(); i += 2) samples.push_back({numbers[i], numbers[i + 1]});
 
-  std::vector<float> wavelengths;
-  wavelengths.reserve(samples.size());
-  for (const SpectralSample& s : samples) wavelengths.push_back(s.wavelength);
-  std::sort(wavelengths.begin(), wavelengths.end());
-  const auto repeat = std::adjacent_find(wavelengths.begin(), wavelengths.end());
-  if (repeat != wavelengths.end()) {
-    std::ostringstream message;
-    message << "wavelength " << *repeat << " nm appears more than once";
-    fail(message.str());
-  }
   return samples;
 }
 

@@ -35,8 +35,9 @@ Rgb blackbodyToRgb(float kelvin, float scale);
 std::vector<float> parseNumberText(std::string_view text, const std::filesystem::path& shownName,
                                    Diagnostics* tolerate = nullptr);
 
-/// The samples of a .spd text, in its order. Throws SceneError for no numbers, an odd count, a repeated
-/// wavelength, or what `parseNumberText` refuses. With `tolerate` the last of an odd count is left out.
+/// The samples of a .spd text, in its order. Throws SceneError for no numbers, an odd count, or what
+/// `parseNumberText` refuses. With `tolerate` the last of an odd count is left out. A repeated wavelength is
+/// left to `sampledSpectrumToRgb`.
 std::vector<SpectralSample> parseSpectrumText(std::string_view text, const std::filesystem::path& shownName,
                                               Diagnostics* tolerate = nullptr);
 

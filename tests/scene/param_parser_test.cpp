@@ -83,6 +83,7 @@ TEST(ParamParser, SaysWhenASpectrumFileCannotBeUsedOrHasNoFiniteColour) {
   parseText("Film \"image\" \"spectrum L\" \"twice.spd\"\n\"xyz M\" [3e38 3e38 3e38]\nWorldBegin WorldEnd",
             "t.pbrt", folder.path(), d);
   const std::string out = d.format();
+  EXPECT_NE(out.find("t.pbrt:1:27: error: parameter \"spectrum L\": \""), std::string::npos) << out;
   EXPECT_NE(out.find("wavelength 400 nm appears more than once"), std::string::npos) << out;
   EXPECT_NE(out.find("t.pbrt:2:10: error: parameter \"xyz M\": the spectrum has no finite RGB value"),
             std::string::npos)
@@ -109,7 +110,7 @@ TEST(ParamParser, WarnsOfASpectrumFileBesideTheIncluder) {
 TEST(ParamParser, AMissingSpectrumFileIsBlackAndAnOddOneIsReadAsFarAsItGoes) {
   const TemporaryFolder folder;
   const std::string bad = folder.write("bad.spd", "400, 1\n700 x 1 800").string();
-  const std::string empty = folder.write("empty.spd", "# nothing\n").string();
+  folder.write("empty.spd", "# nothing\n");
   const std::string text =
       "Film \"image\" \"spectrum L\" \"none.spd\"\n\"spectrum M\" \"bad.spd\"\nWorldBegin WorldEnd";
   Diagnostics d;
@@ -135,8 +136,9 @@ TEST(ParamParser, AMissingSpectrumFileIsBlackAndAnOddOneIsReadAsFarAsItGoes) {
   Diagnostics nothing;
   parseText("Film \"image\"\n\"spectrum M\" \"empty.spd\"\nWorldBegin WorldEnd", "t.pbrt", folder.path(),
             nothing);
-  EXPECT_NE(nothing.format().find(empty + ": error: "), std::string::npos) << nothing.format();
-  EXPECT_NE(nothing.format().find("t.pbrt:2:14: note: the file is named here"), std::string::npos);
+  EXPECT_FALSE(nothing.hasErrors()) << nothing.format();
+  EXPECT_NE(nothing.format().find("found no numbers; black is taken, as in PBRT-v3"), std::string::npos)
+      << nothing.format();
 }
 
 TEST(ParamParser, OneValueNeedsNoBrackets) {
