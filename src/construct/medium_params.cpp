@@ -68,9 +68,7 @@ void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, Den
   const bool walksPieces = inPieces && p.bounds.source == BoundsParams::Source::Exact;
   p.estimator = readTransmittance(in, walksPieces);
   const AnyLaw law = p.estimator ? lawOf(*p.estimator) : AnyLaw();
-  if (!std::holds_alternative<ExponentialLaw>(law) && !p.le.isBlack()) {
-    in.error(ParamKind::String, "law", "a medium that emits (Le) follows the exponential law only");
-  }
+  requireExponentialLaw(in, p);
   p.sampler = readFreeFlight(in, law, walksPieces, p.sigmaS.max() > 0);
   p.pattern = static_cast<PatternKind>(
       findOwnChoice(in, "pattern", kPatternNames, static_cast<std::size_t>(p.pattern)));

@@ -89,7 +89,7 @@ ShapePlan readDisk(const ShapeInput& input) {
   Disk::Params p;
   p.height = input.in.findFloat("height", p.height);
   p.radius = readRadius(input.in, p.radius);
-  p.innerradius = input.in.findFloat("innerradius", p.innerradius);
+  p.innerradius = std::abs(input.in.findFloat("innerradius", p.innerradius));  // only its square counts
   p.phimax = input.in.findFloat("phimax", p.phimax);
   return planQuadric<Disk>(input, p);
 }
@@ -221,7 +221,7 @@ std::unique_ptr<Shape> placedMesh(TriangleMesh::Params params, const ShapePlacem
 }
 
 ShapePlan planMesh(const ShapeInput& input, std::string_view typeName,
-                   std::shared_ptr<TriangleMesh::Params> params) {
+                   const std::shared_ptr<TriangleMesh::Params>& params) {
   return planOf([params, placement = input.placement, typeName](Diagnostics&) {
     return placedMesh(std::move(*params), placement, typeName);
   });
@@ -259,7 +259,7 @@ ShapePlan readTriangleMesh(const ShapeInput& input) {
   readAlpha(input, alphas);
   if (!complete || !mend(input, *params)) return {};
   ShapePlan plan = std::move(alphas);
-  plan.make = planMesh(input, "trianglemesh", std::move(params)).make;
+  plan.make = planMesh(input, "trianglemesh", params).make;
   return plan;
 }
 

@@ -65,7 +65,7 @@ std::size_t findOwnChoice(ParamReader& in, std::string_view name, std::span<cons
 }
 
 std::optional<std::filesystem::path> requireFile(ParamReader& in, std::string_view name) {
-  const std::optional<std::filesystem::path> file = in.findInputFile(name);
+  std::optional<std::filesystem::path> file = in.findInputFile(name);
   if (file) return file;
   const Param* const given = in.find(ParamKind::String, name);
   if (given == nullptr) {
@@ -78,7 +78,7 @@ std::optional<std::filesystem::path> requireFile(ParamReader& in, std::string_vi
 
 std::string problemOf(const SceneError& e) {
   const SourceLocation& at = e.location();
-  const std::string what = e.what();
+  std::string what = e.what();
   if (at.file == nullptr || (at.line == 0 && what.find(*at.file) != std::string::npos)) return what;
   return at.toString() + ": " + what;
 }

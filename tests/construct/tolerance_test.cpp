@@ -423,6 +423,9 @@ TEST(Tolerance, EmissionThatCannotBeSeenIsTold) {
   EXPECT_TRUE(made(grid + "\"rgb Le\" [ 1 1 1 ] \"float Lescale\" [ 0 0 ]").warns("all its factors are 0"));
   EXPECT_TRUE(made(fog + "\"rgb Le\" [ 1 1 1 ] \"rgb sigma_a\" [ 0 0 0 ]").warns("sigma_a is 0"));
   EXPECT_TRUE(made(fog + "\"rgb Le\" [ 1 1 1 ]").isSilent());
+  EXPECT_TRUE(
+      made(grid + "\"rgb sigma_s\" [ 0 0 0 ] \"float temperature\" [ 900 2000 ] \"string law\" \"davis\"")
+          .failsWith("follows the exponential law only"));
 }
 
 }  // namespace
