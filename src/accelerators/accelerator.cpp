@@ -181,9 +181,10 @@ std::optional<RayHit> Accelerator::intersect(const Ray& ray, float tMin, const E
   return query.best();
 }
 
-bool Accelerator::occluded(const Ray& ray, float tMin, const Exclusions& exclusions) const {
+bool Accelerator::occluded(const Ray& ray, float tMin, const Exclusions& exclusions,
+                           std::uint32_t blocker) const {
   if (!impl_->scene || !isFinite(ray.o) || !isFinite(ray.d)) return false;
-  Query query(ray, tMin, exclusions, /*shadowRay=*/true);
+  Query query(ray, tMin, exclusions, /*shadowRay=*/true, blocker);
   if (!query.crossesNeighbourAtStart(*impl_)) query.run(impl_->scene);
   return query.best().id.isValid();
 }

@@ -126,8 +126,11 @@ class Accelerator {
   /// which side of a plane the ray is follows from the triangle it lies on. Rays with NaN or infinite origin
   /// or direction miss.
   std::optional<RayHit> intersect(const Ray& ray, float tMin, const Exclusions& exclusions) const;
-  /// Whether `intersect` would report a hit (with the filters of shadow rays).
-  bool occluded(const Ray& ray, float tMin, const Exclusions& exclusions) const;
+  /// Whether `intersect` would report a hit (with the filters of shadow rays). `blocker`: number of a
+  /// geometry placed directly that blocks wherever `intersect` hits it, whatever its filter says of shadow
+  /// rays.
+  bool occluded(const Ray& ray, float tMin, const Exclusions& exclusions,
+                std::uint32_t blocker = PrimitiveId::kNone) const;
   /// Bounds of everything added (over all times).
   Bounds3f bounds() const;
   bool isEmpty() const;

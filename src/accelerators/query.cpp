@@ -24,8 +24,8 @@ constexpr double kPointRounding = 4 * 0x1p-24;
 
 }  // namespace
 
-Query::Query(const Ray& ray, float tMin, const Exclusions& exclusions, bool shadowRay)
-    : ray_(ray), tMin_(tMin), exclusions_(exclusions), shadowRay_(shadowRay) {
+Query::Query(const Ray& ray, float tMin, const Exclusions& exclusions, bool shadowRay, std::uint32_t blocker)
+    : ray_(ray), tMin_(tMin), exclusions_(exclusions), shadowRay_(shadowRay), blocker_(blocker) {
   rtcInitIntersectContext(&context_.embree);
   context_.embree.filter = filterTriangle;
   context_.query = this;
@@ -119,7 +119,7 @@ bool Query::crossesNeighbourAtStart(const Accelerator::Impl& world) {
     const float reach = static_cast<float>(256 * start->rounding / length(Vec3d(ray_.d)));
     const Exclusions onlyStart(entry.id, 0);
     Query query({.o = start->inside, .d = ray_.d, .tMax = std::min(reach, ray_.tMax), .time = ray_.time}, 0,
-                onlyStart, shadowRay_);
+                onlyStart, shadowRay_, blocker_);
     query.onlyAdjacent_ = true;
     query.run(world.scene);
     if (!query.best_.id.isValid() || isExcluded(query.best_.id)) continue;
@@ -135,7 +135,7 @@ bool Query::take(const GeometryRecord& record, const RayHit& hit) {
   if (!(hit.t >= tMin_ && hit.t < ray_.tMax)) return false;
   const bool isTie = best_.id.isValid() && hit.t == best_.t;
   if (isTie && !precedes(hit.id, best_.id)) return false;
-  if (record.filter && !record.filter->accepts(hit, shadowRay_)) return false;
+  if (record.filter && !record.filter->accepts(hit, shadowRay_ && !isBlocker(hit.id))) return false;
   best_ = hit;
   return true;
 }

@@ -12,7 +12,9 @@ namespace pbrtmedia {
 /// One ray on its way through a scene: what Embree's callbacks have to know, and the nearest hit so far.
 class Query {
  public:
-  Query(const Ray& ray, float tMin, const Exclusions& exclusions, bool shadowRay);
+  /// `blocker`: Accelerator::occluded.
+  Query(const Ray& ray, float tMin, const Exclusions& exclusions, bool shadowRay,
+        std::uint32_t blocker = PrimitiveId::kNone);
   Query(const Query&) = delete;
   Query& operator=(const Query&) = delete;
 
@@ -45,6 +47,9 @@ class Query {
   /// The candidate becomes `best_` when nothing speaks against it.
   bool take(const GeometryRecord& record, const RayHit& hit);
   bool isExcluded(const PrimitiveId& id) const;
+  bool isBlocker(const PrimitiveId& id) const {
+    return id.geometry == blocker_ && id.instance == PrimitiveId::kNone;
+  }
   bool isLeftOut(const GeometryRecord& record, const RayHit& hit, Vec3d direction) const;
   /// A point safely inside the triangle of `entry`, when the ray starts within rounding of its border.
   struct BorderStart {
@@ -60,6 +65,7 @@ class Query {
   float tMin_;
   const Exclusions& exclusions_;
   bool shadowRay_;
+  std::uint32_t blocker_;
   bool onlyAdjacent_ = false;  ///< only neighbours of excluded triangles are hit
   std::uint32_t animatedInstance_ = PrimitiveId::kNone;
   RayHit best_;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <utility>
 
+#include "construct/light_messages.h"
 #include "construct/plugins.h"
 #include "construct/tolerance.h"
 #include "image/image.h"
@@ -152,6 +153,9 @@ std::optional<LightPlan> readLight(LightDescription& light, bool quick, Diagnost
   if (light.ctm->isAnimated()) {
     diagnostics.warning(light.location,
                         in.context() + ": lights do not move; the transformation of the start time is used");
+  }
+  if (plugin->read == readInfinite && !light.ctm->start.isSingular()) {
+    reportScaledSky(light.ctm->start, light.location, in.context(), diagnostics);
   }
   LightPlan plan = plugin->read({in, light.ctm->start, quick});
   in.reportUnused();

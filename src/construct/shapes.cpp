@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <sstream>
 #include <utility>
 
 #include "construct/plugins.h"
@@ -111,12 +112,37 @@ ShapePlan readParaboloid(const ShapeInput& input) {
   return planQuadric<Paraboloid>(input, p);
 }
 
+/// PBRT-v3's surface is not the one that its documentation speaks of.
+void reportWaist(const ShapeInput& input, const Hyperboloid::Params& params) {
+  const Hyperboloid::Waist waist = Hyperboloid::waist(params);
+  if (!waist.isElsewhere) return;
+  std::ostringstream os;
+  os.precision(4);
+  os << input.in.context()
+     << ": the line from p1 to p2 is nearest to the axis at another height than z = 0, where "
+     << "PBRT-v3 renders another surface than it sweeps, with radius " << waist.radius << " at p1 instead of "
+     << waist.sweptRadius
+     << "; that surface is rendered. For the swept one lay its waist at z = 0 (Translate)";
+  input.in.diagnostics().tolerated(input.shape.location, os.str());
+}
+
 ShapePlan readHyperboloid(const ShapeInput& input) {
   Hyperboloid::Params p;
   p.p1 = input.in.findPoint3("p1", p.p1);
   p.p2 = input.in.findPoint3("p2", p.p2);
   p.phimax = input.in.findFloat("phimax", p.phimax);
-  return planQuadric<Hyperboloid>(input, p);
+  if (isFinite(p.p1) && isFinite(p.p2) && p.p1.z != p.p2.z && Hyperboloid::isEmpty(p)) {
+    input.in.diagnostics().tolerated(
+        input.shape.location,
+        input.in.context() +
+            ": PBRT-v3's surface has no part between the heights of p1 and p2, as the line between "
+            "them is nearest to the axis far from z = 0: nothing is rendered. For the surface "
+            "that the line sweeps lay its waist at z = 0 (Translate)");
+    return {};
+  }
+  ShapePlan plan = planQuadric<Hyperboloid>(input, p);
+  if (plan.make) reportWaist(input, p);
+  return plan;
 }
 
 /// Opaque unless the parameter is given (scene-language reference 13.9).

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "construct/light_messages.h"
 #include "construct/plugins.h"
 
 namespace pbrtmedia {
@@ -142,6 +143,7 @@ void WorldBuilder::addAreaLights(const ShapeDescription& shape, Primitive& primi
   if (shape.areaLight == kNone || shape.ctm->isAnimated()) return;
   const auto& params = areaLights_[static_cast<std::size_t>(shape.areaLight)];
   if (!params || params->radiance.isBlack()) return;
+  if (shape.object == kNone) reportAreaLight(shape, *primitive.shape, *params, diagnostics_);
   const std::uint32_t count = primitive.shape->primitiveCount();
   primitive.areaLights.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {

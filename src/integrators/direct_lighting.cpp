@@ -15,13 +15,14 @@ Rgb emissionAlong(const Scene& scene, std::size_t light, const Ray& ray, Primiti
                   RenderCounters& counters) {
   LineWalk walk(scene, ray, Exclusions(start));
   const Light& source = *scene.lights()[light];
+  const std::uint32_t hider = scene.hiderOf(light);
   while (const std::optional<SceneHit> hit = walk.next(counters.rays)) {
     if (hit->light == light) {
       const SurfaceInteraction si = scene.surface(*hit, ray);
       lightPdf = source.pdf(ray.o, ray.d, &si);
       return hit->areaLight().emitted(si.n, si.wo);
     }
-    if (hit->primitive->material) return {};
+    if (hit->primitive->material || hit->isHider(hider)) return {};
   }
   if (!source.isInfinite()) return {};
   lightPdf = source.pdf(ray.o, ray.d, nullptr);
@@ -80,7 +81,7 @@ Rgb DirectLightingIntegrator::radiance(const RayDifferential& ray, SampleContext
   };
   SpecularRecursion::Lighting lighting = lightAll;
   if (params_.strategy == DirectLightingParams::Strategy::One) lighting = lightOne;
-  return SpecularRecursion(scene_, params_.maxDepth, lighting, context).radiance(ray, {}, 0);
+  return SpecularRecursion(scene_, params_.maxDepth, lighting, context).radiance(ray);
 }
 
 }  // namespace pbrtmedia

@@ -21,12 +21,20 @@ class LineWalk {
   /// `exclusions`: what the ray starts on or ends on. `scene` and `ray` are borrowed.
   LineWalk(const Scene& scene, const Ray& ray, const Exclusions& exclusions)
       : scene_(scene), ray_(ray), fixed_(exclusions), exclusions_(exclusions) {}
+  /// Of a ray from the camera. Surfaces with a material that hold its origin, up to rounding, are left out:
+  /// PBRT-v3 takes no hit at distance 0. So are emitters, but not boundaries of media.
+  static LineWalk fromCamera(const Scene& scene, const Ray& ray) {
+    LineWalk walk(scene, ray, {});
+    walk.isFromCamera_ = true;
+    return walk;
+  }
   /// The rest of another walk, along the same line as it is kept elsewhere.
   LineWalk(const LineWalk& walk, const Ray& sameRay)
       : scene_(walk.scene_),
         ray_(sameRay),
         fixed_(walk.fixed_),
         exclusions_(walk.exclusions_),
+        isFromCamera_(walk.isFromCamera_),
         tMin_(walk.tMin_),
         ended_(walk.ended_),
         ahead_(walk.ahead_) {}
@@ -65,11 +73,13 @@ class LineWalk {
   std::size_t lookAhead(std::uint64_t& queries);
   bool fetch(std::uint64_t& queries);
   void advancePast(const RayHit& hit);
+  bool holdsOrigin(const SceneHit& hit) const;
   void forgetBefore(float t);
 
   const Scene& scene_;
   const Ray& ray_;
   Exclusions fixed_, exclusions_;  ///< as given; with the crossings at tMin_ and beyond
+  bool isFromCamera_ = false;
   float tMin_ = 0;
   bool ended_ = false;
   std::vector<SceneHit> ahead_;  ///< found but not yet delivered, in order of t

@@ -59,12 +59,17 @@ Rgb PathTracer::finish(Event event) {
 /// on the way. Crossings cost no depth and no roulette.
 PathTracer::Event PathTracer::travel() {
   if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters() && !setup_.mediaEmit) return Event::End;
-  Travel way{LineWalk(setup_.scene, ray_, Exclusions(rayStart_)), startPlane_};
+  const bool isFromCamera = bounces_ == 0;
+  Travel way{isFromCamera ? LineWalk::fromCamera(setup_.scene, ray_)
+                          : LineWalk(setup_.scene, ray_, Exclusions(rayStart_)),
+             startPlane_};
   return travelOn(way);
 }
 
 PathTracer::Event PathTracer::travelOn(Travel& way) {
-  auto& [walk, start, t] = way;
+  LineWalk& walk = way.walk;
+  BoundaryPlane& start = way.start;
+  double& t = way.t;
   const auto fits = [&](const SceneHit& h) {
     return !setup_.media || setup_.media->fits(state_, h, setup_.scene.surface(h, ray_), ray_.d);
   };
@@ -91,7 +96,7 @@ PathTracer::Event PathTracer::travelOn(Travel& way) {
     const bool scatters = hit->primitive->material != nullptr;
     if (scatters || hit->isEmitter() || setup_.media) {
       const SurfaceInteraction si = surfaceAt(*hit);
-      if (hit->isEmitter()) collectEmission(*hit, si);
+      if (hit->isEmitter()) collectEmission(way, *hit, si);
       if (scatters) {
         if (seesOnlyEmission()) return Event::End;
         surface_ = {*hit, si};
@@ -171,7 +176,7 @@ void PathTracer::followChannels(const Travel& way) {
     one.radiance_ = Rgb();
     one.beta_ = Rgb();
     one.beta_[c] = beta_[c];
-    Travel rest{LineWalk(way.walk, one.ray_), way.start, way.t};
+    Travel rest{LineWalk(way.walk, one.ray_), way.start, way.t, way.passedEmitters};
     radiance_ += one.finish(one.travelOn(rest));
   }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "integrators/line_walk.h"
 #include "integrators/media_tracker.h"
@@ -53,6 +54,8 @@ class PathTracer {
     LineWalk walk;
     BoundaryPlane start;  ///< of the stretch at hand
     double t = 0;
+    /// Emitters without material that the ray has met, by PrimitiveId::geometry: the rest of each is hidden.
+    std::vector<std::uint32_t> passedEmitters{};
   };
 
   Rgb finish(Event event);
@@ -65,7 +68,7 @@ class PathTracer {
   Point3f mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
   void lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
   void collectMediumEmission(double tMin, double tMax);
-  void collectEmission(const SceneHit& hit, const SurfaceInteraction& si);
+  void collectEmission(Travel& way, const SceneHit& hit, const SurfaceInteraction& si);
   void collectBackground();
   bool scatterOnSurface();
   bool scatterInMedium();
@@ -75,7 +78,8 @@ class PathTracer {
 
   struct PickedLight {
     std::size_t index;
-    LightSample sample;  ///< pdf includes the probability of the pick
+    float probability;   ///< of the pick
+    LightSample sample;  ///< pdf includes `probability`
   };
   std::optional<PickedLight> pickLight(Point3f p, bool scatteringFindsUniformLights);
   Rgb arriving(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // What a path collects: light samples at its vertices and along its stretches, and what it meets that emits.
+#include <algorithm>
+
 #include "base/warp.h"
 #include "integrators/medium_light.h"
 #include "integrators/path_tracer.h"
@@ -19,7 +21,8 @@ std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool sca
   if (skips(choice.light)) return std::nullopt;
   const MediumLight* const emitter = setup_.scene.mediumLight(choice.light);
   PickedLight picked{
-      choice.light, emitter ? emitter->sampleDirection(p, u, ray_.time) : lights[choice.light]->sample(p, u)};
+      choice.light, choice.probability,
+      emitter ? emitter->sampleDirection(p, u, ray_.time) : lights[choice.light]->sample(p, u)};
   if (!(picked.sample.pdf > 0) || (!emitter && picked.sample.radiance.isBlack())) return std::nullopt;
   picked.sample.pdf *= choice.probability;
   return picked;
@@ -29,9 +32,11 @@ std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool sca
 Rgb PathTracer::arriving(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state) {
   const Scene& scene = setup_.scene;
   const LightSample& s = light.sample;
-  ShadowRay shadow = shadowRayTo(s, p, ray_.time, start, scene.lightTarget(light.index));
+  ShadowRay shadow = shadowRayTo(scene, light.index, s, p, ray_.time, start);
   if (!setup_.media) {
-    return scene.occluded(shadow.ray, 0, shadow.exclusions, counters_.shadowRays) ? Rgb() : s.radiance;
+    const bool occluded =
+        scene.occluded(shadow.ray, 0, shadow.exclusions, counters_.shadowRays, shadow.hider);
+    return occluded ? Rgb() : s.radiance;
   }
   if (const MediumLight* const emitter = scene.mediumLight(light.index)) {
     const auto span = emitter->span(p, s.wi, ray_.time);
@@ -48,7 +53,9 @@ Rgb PathTracer::arriving(const PickedLight& light, Point3f p, PrimitiveId start,
 /// Share of a light sample; what a direction of that density finds accounts for the rest.
 float PathTracer::lightWeight(const PickedLight& light, float directionPdf) const {
   if (setup_.lights[light.index]->isDelta()) return 1;
-  return powerHeuristic(light.sample.pdf, directionPdf);
+  const LightSample& s = light.sample;
+  if (setup_.lights[light.index]->isSplit()) return powerHeuristic(s.pdf / light.probability, directionPdf);
+  return powerHeuristic(s.pdf, directionPdf);
 }
 
 /// Share of a collision's sample of a light at one point; `lightStretch` accounts for the rest.
@@ -101,7 +108,7 @@ void PathTracer::lightStretch(const PositionLights::Stretch& stretch, const Scen
   if (!choice) return;
   const Point3f p = mediumPoint(choice->t, stretch.tMax, hit, start);
   if (!isFinite(p)) return;
-  const PickedLight light{choice->light, setup_.lights[choice->light]->sample(p, {})};
+  const PickedLight light{choice->light, 1, setup_.lights[choice->light]->sample(p, {})};
   const LightSample& s = light.sample;
   if (!(s.pdf > 0) || s.radiance.isBlack()) return;
   const Rgb scattered = MediaTracker::scattering(state_, ray_, choice->t, -ray_.d, s.wi, counters_);
@@ -143,7 +150,8 @@ float PathTracer::emissionWeight(std::size_t light, const SurfaceInteraction* si
   if (light == SceneHit::kNoLight) return 0;  // visible, but no source of illumination
   const Light& source = *setup_.lights[light];
   if (ownsUniformLights_ && source.isUniformInfinite()) return 1;
-  const float lightPdf = setup_.selector->probability(ray_.o, light) * source.pdf(ray_.o, ray_.d, si);
+  const float probability = source.isSplit() ? 1 : setup_.selector->probability(ray_.o, light);
+  const float lightPdf = probability * source.pdf(ray_.o, ray_.d, si);
   return powerHeuristic(directionPdf_, lightPdf);
 }
 
@@ -154,7 +162,12 @@ float PathTracer::mediumEmissionWeight(const MediumLight& source, std::size_t li
   return powerHeuristic(directionPdf_, static_cast<float>(lightPdf));
 }
 
-void PathTracer::collectEmission(const SceneHit& hit, const SurfaceInteraction& si) {
+/// An emitter without material illuminates by its side that is met first. Directly seen are all.
+void PathTracer::collectEmission(Travel& way, const SceneHit& hit, const SurfaceInteraction& si) {
+  if (!isDirect_ && hit.light != SceneHit::kNoLight && !hit.primitive->material) {
+    if (std::ranges::find(way.passedEmitters, hit.hit.id.geometry) != way.passedEmitters.end()) return;
+    way.passedEmitters.push_back(hit.hit.id.geometry);
+  }
   const Rgb emitted = hit.areaLight().emitted(si.n, si.wo);
   if (!emitted.isBlack()) radiance_ += beta_ * emitted * emissionWeight(hit.light, &si);
 }

@@ -37,6 +37,12 @@ Scene::Scene(std::unique_ptr<Parts> parts)
   for (std::uint32_t i = 0; i < lights_.size(); ++i) {
     if (lights_[i]->isInfinite()) infiniteLights_.push_back(i);
   }
+  for (std::size_t i = 0; i < lightTargets_.size(); ++i) {
+    const PrimitiveId target = lightTargets_[i];
+    if (!target.isValid() || parts_->entries[target.geometry].primitive->primitive.material) continue;
+    hiders_.resize(i + 1, PrimitiveId::kNone);
+    hiders_[i] = target.geometry;
+  }
   lightsWithMedia_ = lights_;
   for (std::size_t i = 0; i < parts_->mediumLights.size(); ++i)
     lightsWithMedia_.push_back(&parts_->mediumLights[i]);
@@ -97,9 +103,10 @@ std::optional<SceneHit> Scene::closest(const Ray& ray, float tMin, const Exclusi
   return resolve(*hit);
 }
 
-bool Scene::occluded(const Ray& ray, float tMin, const Exclusions& exclusions, std::uint64_t& queries) const {
+bool Scene::occluded(const Ray& ray, float tMin, const Exclusions& exclusions, std::uint64_t& queries,
+                     std::uint32_t hider) const {
   ++queries;
-  return parts_->top.accelerator.occluded(ray, tMin, exclusions);
+  return parts_->top.accelerator.occluded(ray, tMin, exclusions, hider);
 }
 
 SurfaceInteraction Scene::surface(const SceneHit& hit, const Ray& ray) const {

@@ -53,6 +53,8 @@ struct SceneHit {
 
   float t() const { return hit.t; }
   bool isEmitter() const { return !primitive->areaLights.empty(); }
+  /// Whether it is the primitive that Scene::hiderOf names.
+  bool isHider(std::uint32_t geometry) const { return hit.id.geometry == geometry && !placement; }
   /// Only when isEmitter().
   const AreaLight& areaLight() const { return *primitive->areaLights[hit.id.primitive]; }
 };
@@ -70,7 +72,9 @@ class Scene {
                                   std::uint64_t& queries) const;
   /// Whether a surface with a material lies in [tMin, ray.tMax); shadowalpha applies. Surfaces without
   /// material do not block. Media are not considered. `queries`: a counter, incremented.
-  bool occluded(const Ray& ray, float tMin, const Exclusions& exclusions, std::uint64_t& queries) const;
+  /// `hider`: hiderOf the light that is looked for.
+  bool occluded(const Ray& ray, float tMin, const Exclusions& exclusions, std::uint64_t& queries,
+                std::uint32_t hider = PrimitiveId::kNone) const;
   /// World-space surface point of a hit of `ray`, without footprint.
   SurfaceInteraction surface(const SceneHit& hit, const Ray& ray) const;
 
@@ -79,6 +83,11 @@ class Scene {
   /// The primitive a light is on, to be left out when its visibility is tested; invalid for other lights.
   PrimitiveId lightTarget(std::size_t light) const {
     return light < lightTargets_.size() ? lightTargets_[light] : PrimitiveId{};
+  }
+  /// PrimitiveId::geometry of the surface without material that a light is on; kNone for other lights. It
+  /// hides what of this light is behind it, and nothing else.
+  std::uint32_t hiderOf(std::size_t light) const {
+    return light < hiders_.size() ? hiders_[light] : PrimitiveId::kNone;
   }
   /// The same, followed by the emissive media; for integrators that render media.
   const std::vector<const Light*>& lightsWithMedia() const { return lightsWithMedia_; }
@@ -114,6 +123,7 @@ class Scene {
   std::unique_ptr<Parts> parts_;
   std::vector<const Light*> lights_, lightsWithMedia_;
   std::vector<PrimitiveId> lightTargets_;
+  std::vector<std::uint32_t> hiders_;  ///< up to the last light that has one
   std::vector<std::uint32_t> infiniteLights_;
   Bounds3f bounds_;
   bool hasMediumBoundaries_ = false, hasShadowAlpha_ = false, hasVisibleEmitters_ = false,

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include "integrators/integrator.h"
 #include "integrators/path_samples.h"
@@ -20,17 +23,48 @@ struct ShadedPoint {
 
 /// What `whitted` and `directlighting` share: emission, direct light by `lighting`, and recursion over
 /// perfect specular reflection and transmission up to `maxDepth` levels, with ray differentials. Media are
-/// ignored and surfaces without material are passed.
+/// ignored and surfaces without material are passed; where they emit they are not seen, as in PBRT-v3.
+///
+/// Recursion is a list of what is still open, so any `maxDepth` will do. From `kExactLevels` on a chain of
+/// rays takes no memory, and rays too dim for a float to hold are not followed. Two rays at each of many
+/// surfaces are still 2^depth.
 class SpecularRecursion {
  public:
   /// Reflected radiance toward si.wo from direct light.
   using Lighting = std::function<Rgb(const ShadedPoint&, PathSamples&)>;
   SpecularRecursion(const Scene& scene, int maxDepth, const Lighting& lighting, SampleContext& context)
       : scene_(scene), maxDepth_(maxDepth), lighting_(lighting), context_(context), samples_(context) {}
-  Rgb radiance(const RayDifferential& ray, PrimitiveId start, int level);
+  Rgb radiance(const RayDifferential& cameraRay);
+
+  /// Up to this level sums and products are rounded in the order in which a recursive function makes them,
+  /// and random numbers are drawn in its order. (Levels cost some kilobytes each, and no image needs more.)
+  static constexpr int kExactLevels = 1000;
 
  private:
-  Rgb follow(const ShadedPoint& point, const RayDifferential& ray, BsdfFlags side, int level);
+  /// A ray to follow.
+  struct Next {
+    RayDifferential ray;
+    PrimitiveId start;
+    int level;
+    Rgb factor, throughput;  ///< of what it finds: at its vertex, and from the camera on
+  };
+  /// A surface point that specular rays leave.
+  struct Vertex {
+    ShadedPoint point;
+    RayDifferential ray;  ///< by which it was found
+    int level;
+    Rgb throughput;
+  };
+  /// A vertex whose radiance is `sum`, plus `factor` times that of the ray being followed, plus that of one
+  /// more ray: of `vertex`, or `rest`.
+  struct Open {
+    Rgb sum, factor;
+    std::unique_ptr<Vertex> vertex;
+    std::unique_ptr<Next> rest;
+  };
+  Rgb visit(const Next& at, std::unique_ptr<Vertex>& vertex);
+  std::optional<Next> descend(Rgb value, std::unique_ptr<Vertex> vertex, std::vector<Open>& open);
+  std::optional<Next> follow(const Vertex& from, BsdfFlags side);
 
   const Scene& scene_;
   int maxDepth_;

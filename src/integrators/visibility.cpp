@@ -11,15 +11,16 @@ namespace pbrtmedia {
 /// so that neighbours of the emitting primitive in its own plane do not shadow it.
 static constexpr float kEndMargin = 0x1p-18f;
 
-ShadowRay shadowRayTo(const LightSample& sample, Point3f p, float time, PrimitiveId start,
-                      PrimitiveId target) {
+ShadowRay shadowRayTo(const Scene& scene, std::size_t light, const LightSample& sample, Point3f p, float time,
+                      PrimitiveId start) {
   ShadowRay shadow;
   shadow.ray.o = p;
   shadow.ray.d = sample.wi;
   shadow.ray.time = time;
   shadow.ray.tMax = sample.distance * (1 - kEndMargin);
   shadow.exclusions.add(start, 0);
-  shadow.exclusions.add(target, sample.distance);
+  shadow.exclusions.add(scene.lightTarget(light), sample.distance);
+  shadow.hider = scene.hiderOf(light);
   return shadow;
 }
 
@@ -112,9 +113,10 @@ Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const S
   Rgb product(1.0f);
   double t = 0;
   const auto fits = [&](const SceneHit& h) { return tracker.fits(state, h, scene.surface(h, ray), ray.d); };
+  const auto blocks = [&](const SceneHit& h) { return h.primitive->material || h.isHider(shadow.hider); };
   for (;;) {
     const std::optional<SceneHit> nearest = walk.peek(counters.shadowRays);
-    if (nearest && nearest->primitive->material) return {};
+    if (nearest && blocks(*nearest)) return {};
     if (!nearest && ray.tMax == kInfinity) tracker.escape(state, counters);
     const double tEnd = std::max<double>(t, nearest ? nearest->t() : ray.tMax);
     if (!state.isVacuum()) {
@@ -123,7 +125,7 @@ Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const S
     }
     const std::optional<SceneHit> hit = walk.next(counters.shadowRays, fits);
     if (!hit) return product;
-    if (hit->primitive->material) return {};
+    if (blocks(*hit)) return {};
     if (!hit->primitive->media.same()) {
       tracker.cross(state, *hit, scene.surface(*hit, ray), ray.d, counters, log);
     }

@@ -9,12 +9,13 @@ namespace pbrtmedia {
 struct ShadowRay {
   Ray ray;
   Exclusions exclusions;
+  std::uint32_t hider = PrimitiveId::kNone;  ///< Scene::hiderOf the light
 };
 
 /// A ray from `p` along `sample.wi` that ends on the light. `start`: primitive that holds p (invalid: none).
-/// `target`: the emitting primitive, which must not block (invalid: the light is on no surface).
-ShadowRay shadowRayTo(const LightSample& sample, Point3f p, float time, PrimitiveId start,
-                      PrimitiveId target);
+/// The emitting primitive itself does not block.
+ShadowRay shadowRayTo(const Scene& scene, std::size_t light, const LightSample& sample, Point3f p, float time,
+                      PrimitiveId start);
 
 /// Radiance that `medium` sends along the shadow ray to its start, from where it is present inside `span`,
 /// dimmed by everything on the way: black when a surface with a material is before it. `ray.tMax` is behind
@@ -24,8 +25,8 @@ Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const Shadow
                    RenderCounters& counters, MismatchLog* log);
 
 /// Transmittance of the media along the shadow ray, starting in `state`: black when a surface with a material
-/// is in the way. Boundaries without material are crossed. shadowalpha does not apply (closest hits are
-/// searched). `state` is then that of the far end.
+/// is in the way, or `shadow.hider`. Boundaries without material are crossed. shadowalpha does not apply
+/// (closest hits are searched). `state` is then that of the far end.
 Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
                         MediumState& state, Rng& rng, RenderCounters& counters, MismatchLog* log);
 

@@ -14,7 +14,7 @@ Rgb WhittedIntegrator::radiance(const RayDifferential& ray, SampleContext& conte
     }
     return sum;
   };
-  return SpecularRecursion(scene_, params_.maxDepth, lighting, context).radiance(ray, {}, 0);
+  return SpecularRecursion(scene_, params_.maxDepth, lighting, context).radiance(ray);
 }
 
 }  // namespace pbrtmedia

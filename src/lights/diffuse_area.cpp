@@ -10,7 +10,8 @@ DiffuseAreaLight::DiffuseAreaLight(const Shape& shape, std::uint32_t primitive, 
       primitive_(primitive),
       target_(target),
       radiance_(params.radiance),
-      twoSided_(params.twoSided) {}
+      twoSided_(params.twoSided),
+      isSampledFromBehind_(shape.isSampledFromBehind()) {}
 
 LightSample DiffuseAreaLight::sample(Point3f reference, Point2f u) const {
   LightSample s;
@@ -22,7 +23,7 @@ LightSample DiffuseAreaLight::sample(Point3f reference, Point2f u) const {
   s.wi = Vector3f(d / r);
   s.distance = static_cast<float>(r);
   s.pdf = onShape.pdf;
-  s.radiance = emitted(onShape.n, -s.wi);
+  s.radiance = emitted(isSampledFromBehind_ ? -onShape.n : onShape.n, -s.wi);
   s.target = target_;
   return s;
 }

@@ -7,7 +7,8 @@
 namespace pbrtmedia {
 
 /// `AreaLightSource "diffuse"` on one primitive of a shape: the same radiance from every point in every
-/// direction of the hemisphere around the surface normal, or of both when two-sided.
+/// direction of the hemisphere around the surface normal, or of both when two-sided. Samples of shapes that
+/// are sampled from behind emit around the opposite of the normal, as in PBRT-v3.
 class DiffuseAreaLight final : public AreaLight {
  public:
   struct Params {
@@ -21,6 +22,7 @@ class DiffuseAreaLight final : public AreaLight {
 
   std::string_view typeName() const override { return "diffuse"; }
   bool isDelta() const override { return false; }
+  bool isSplit() const override { return isSampledFromBehind_ && !twoSided_; }
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f reference, Vector3f wi, const SurfaceInteraction* hit) const override;
   Rgb power() const override;
@@ -33,6 +35,7 @@ class DiffuseAreaLight final : public AreaLight {
   PrimitiveId target_;
   Rgb radiance_;
   bool twoSided_;
+  bool isSampledFromBehind_;
 };
 
 }  // namespace pbrtmedia

@@ -42,6 +42,10 @@ class Light {
   virtual void clipToLit(Vec3d o, Vec3d d, double& tMin, double& tMax) const {
     (void)o, (void)d, (void)tMin, (void)tMax;
   }
+  /// Light samples find another side of it emitting than rays that hit it do (Shape::isSampledFromBehind).
+  /// Then the weights of multiple importance sampling decide what it illuminates: they must be PBRT-v3's,
+  /// which leave out the probability of choosing this light.
+  virtual bool isSplit() const { return false; }
   /// "samples": how many of this light's samples `directlighting` takes.
   int sampleCount() const { return sampleCount_; }
   /// Called once with the scene's bounds before rendering.
@@ -71,7 +75,8 @@ class Light {
 class AreaLight : public Light {
  public:
   using Light::Light;
-  /// Radiance leaving a surface point of this light along unit `wo`; the side is judged by `normal`.
+  /// Radiance leaving a surface point of this light along unit `wo`, as it is seen; the side is judged by
+  /// `normal`.
   virtual Rgb emitted(Normal3f normal, Vector3f wo) const = 0;
 };
 

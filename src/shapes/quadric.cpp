@@ -80,6 +80,10 @@ Quadric::ObjectRay Quadric::objectRay(const Ray& ray) const {
 std::optional<UserGeometry::Root> Quadric::intersect(const Ray& ray, double tMin, double tMax,
                                                      std::span<const float> excludedT) const {
   const ObjectRay r = objectRay(ray);
+  const bool startsHere = tMin <= 0 && excludedT.size() == 1 && excludedT.front() == 0;
+  if (startsHere && stopsAtStart(r.o - r.shift * r.d, r.d)) {
+    return Root{0, Point2f(parameters(project(r.o - r.shift * r.d)))};
+  }
   const Roots roots = openRoots(lineEquation(r.o, r.d), excludedT, r.shift);
   for (std::size_t i = 0; i < roots.count; ++i) {
     const double t = roots.t[i] + r.shift;
@@ -126,8 +130,8 @@ SurfaceInteraction Quadric::interaction(const RayHit& hit, const Ray& ray) const
   si.uv = Point2f(Point2d(std::clamp(uv.x, 0.0, 1.0), std::clamp(uv.y, 0.0, 1.0)));
   si.dpdu = Vector3f(d.dpdu);
   si.dpdv = Vector3f(d.dpdv);
-  si.dndu = Normal3f(sign * dndu);
-  si.dndv = Normal3f(sign * dndv);
+  si.dndu = Normal3f(dndu);
+  si.dndv = Normal3f(dndv);
   si.shading = {si.n, si.dpdu, si.dpdv, si.dndu, si.dndv};
   si.primitive = hit.id;
 
@@ -147,15 +151,17 @@ double Quadric::area(std::uint32_t) const {
   for (int i = 0; i < kAreaSteps; ++i) {
     for (int j = 0; j < kAreaSteps; ++j) {
       const Point2d u((i + 0.5) / kAreaSteps, (j + 0.5) / kAreaSteps);
-      sum += areaScale(normal(sampleObject(u)));
+      sum += areaScale(surfaceNormal(sampleObject(u)));
     }
   }
   return objectArea() * sum / sqr(kAreaSteps);
 }
 
+double Quadric::areaSampledByPbrt(std::uint32_t) const { return objectArea(); }
+
 ShapeSample Quadric::sampleAt(Vec3d pObject) const {
   const Vec3d n = normal(pObject), mapped = worldFromObject_.normal(n);
-  const auto pdf = static_cast<float>(1 / (objectArea() * areaScale(n)));
+  const auto pdf = static_cast<float>(1 / (objectArea() * areaScale(surfaceNormal(pObject))));
   return {.p = Point3f(worldFromObject_.point(pObject)),
           .n = Normal3f((flips_ ? -1 : 1) / length(mapped) * mapped),
           .pdf = std::isfinite(pdf) ? pdf : 0};

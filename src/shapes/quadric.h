@@ -15,7 +15,7 @@ namespace pbrtmedia {
 ///
 /// Orientation (scene-language reference 13.1): the object-space normal dp/du x dp/dv, negated by
 /// ReverseOrientation XOR mirrored CTM, carried to world by the inverse transpose. Sampled normals agree with
-/// those of hits; PBRT-v3 leaves out the mirror there.
+/// those of hits; PBRT-v3 leaves out the mirror there, which `isSampledFromBehind` tells.
 ///
 /// Sampling covers exactly the clipped surface, uniformly by *object-space* area; the pdf is the exact world
 /// density, so light and area are right under any CTM. (It is uniform in world space for rotations,
@@ -29,6 +29,10 @@ class Quadric : public Shape, public UserGeometry {
                                 std::span<const float> excludedT) const final;
   SurfaceInteraction interaction(const RayHit& hit, const Ray& ray) const final;
   Point2f uvAt(const RayHit& hit) const final { return hit.uv; }
+
+  /// Sampled normals leave out the mirror in PBRT-v3.
+  bool isSampledFromBehind() const final { return worldFromObject_.swapsHandedness(); }
+  double areaSampledByPbrt(std::uint32_t primitive) const override;
 
   /// Exact for uniform scales; otherwise by quadrature (relative error below 1e-5) on every call.
   double area(std::uint32_t primitive) const final;
@@ -58,6 +62,15 @@ class Quadric : public Shape, public UserGeometry {
   virtual Point2d parameters(Vec3d p) const = 0;
   /// Unit, along dp/du x dp/dv where that is not zero.
   virtual Vec3d normal(Vec3d p) const = 0;
+  /// Unit, across the surface, either way. Another than `normal` where the derivatives are not quite the
+  /// surface's.
+  virtual Vec3d surfaceNormal(Vec3d p) const { return normal(p); }
+  /// Whether a ray that starts on the surface at `o` (up to rounding) along `d` meets it again right there,
+  /// as the side that `normal` says it is on then is not the one it goes to.
+  virtual bool stopsAtStart(Vec3d o, Vec3d d) const {
+    (void)o, (void)d;
+    return false;
+  }
   /// Finite everywhere and with dp/du, dp/dv not zero (at poles a nearby tangent is taken).
   virtual Derivatives derivatives(Vec3d p) const = 0;
   virtual double objectArea() const = 0;

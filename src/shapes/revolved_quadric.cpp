@@ -17,7 +17,7 @@ constexpr int kInversionSteps = 80;  // bisection alone would be done
 
 RevolvedQuadric::RevolvedQuadric(const ShapePlacement& placement, const Profile& profile)
     : Quadric(placement), profile_(profile) {
-  const auto& [c0, c1, c2, zMin, zMax, phiMax, clipsZ, sign] = profile_;
+  const auto& [c0, c1, c2, zMin, zMax, gap, phiMax, clipsZ, sign] = profile_;
   double largest = std::max(profile_.radiusSquared(zMin), profile_.radiusSquared(zMax));
   if (c2 < 0) {
     const double equator = -c1 / (2 * c2);
@@ -67,7 +67,7 @@ bool RevolvedQuadric::contains(Vec3d p) const {
 
 Point2d RevolvedQuadric::parameters(Vec3d p) const { return {azimuth(p) / profile_.phiMax, vAt(p.z)}; }
 
-Vec3d RevolvedQuadric::normal(Vec3d p) const {
+Vec3d RevolvedQuadric::surfaceNormal(Vec3d p) const {
   const Vec3d gradient{p.x, p.y, -profile_.slope(p.z) / 2};
   const double size = length(gradient);
   if (!(size > 0)) return {0, 0, profile_.normalSign};
@@ -90,17 +90,33 @@ Quadric::Derivatives RevolvedQuadric::derivatives(Vec3d p) const {
 }
 
 double RevolvedQuadric::bandArea(double z) const {
+  const double gap = profile_.gap;
+  if (gap == 0 || z <= -gap) return bandAreaWithoutGap(z);
+  const double below = bandAreaWithoutGap(-gap);
+  return z < gap ? below : below + bandAreaWithoutGap(z) - bandAreaWithoutGap(gap);
+}
+
+double RevolvedQuadric::bandAreaWithoutGap(double z) const {
   const double q = std::max(0.0, a0_ + z * (a1_ + z * a2_));
   if (a2_ == 0) {
     if (a1_ == 0) return std::sqrt(a0_) * z;  // sphere, cylinder
     return 2 / (3 * a1_) * q * std::sqrt(q);  // paraboloid
   }
-  // Integral of sqrt(a2 z² + a1 z + a0), a2 > 0; the discriminant is 0 for a cone, positive otherwise.
+  // Integral of sqrt(q) = sqrt(a2 z² + a1 z + a0), by that of 1 / sqrt(q). The discriminant is 0 for a cone,
+  // positive for one sheet, negative for two and for spheroids (a2 < 0 where those are prolate).
   const double x = 2 * a2_ * z + a1_, discriminant = 4 * a2_ * a0_ - a1_ * a1_;
-  double area = x / (4 * a2_) * std::sqrt(q);
-  if (discriminant > 0)
-    area += discriminant / (8 * a2_ * std::sqrt(a2_)) * std::asinh(x / std::sqrt(discriminant));
-  return area;
+  const double area = x / (4 * a2_) * std::sqrt(q);
+  if (discriminant == 0) return area;
+  const double relative = x / std::sqrt(std::abs(discriminant)), scale = std::sqrt(std::abs(a2_));
+  double inverseRoot;
+  if (a2_ < 0) {
+    inverseRoot = -std::asin(std::clamp(relative, -1.0, 1.0));
+  } else if (discriminant > 0) {
+    inverseRoot = std::asinh(relative);
+  } else {
+    inverseRoot = std::copysign(std::acosh(std::max(1.0, std::abs(relative))), relative);
+  }
+  return area + discriminant / (8 * a2_ * scale) * inverseRoot;
 }
 
 double RevolvedQuadric::heightOfBand(double u) const {

@@ -12,6 +12,7 @@ class RevolvedQuadric : public Quadric {
   struct Profile {
     double c0 = 0, c1 = 0, c2 = 0;  ///< squared radius as a polynomial in z
     double zMin = 0, zMax = 0;      ///< zMin < zMax; the squared radius is >= 0 between
+    double gap = 0;                 ///< but where |z| < gap; 0: no gap
     double phiMax = 0;              ///< radians, (0, 2 pi]
     bool clipsZ = true;             ///< false: nothing of the unclipped surface lies outside [zMin, zMax]
     /// Sign of dp/du x dp/dv against the gradient of x² + y² - squared radius.
@@ -35,7 +36,8 @@ class RevolvedQuadric : public Quadric {
   Vec3d project(Vec3d p) const final;
   bool contains(Vec3d p) const final;
   Point2d parameters(Vec3d p) const final;
-  Vec3d normal(Vec3d p) const final;
+  Vec3d normal(Vec3d p) const override { return surfaceNormal(p); }
+  Vec3d surfaceNormal(Vec3d p) const final;
   Derivatives derivatives(Vec3d p) const override;
   double objectArea() const final { return area_; }
   Vec3d sampleObject(Point2d u) const final;
@@ -47,6 +49,7 @@ class RevolvedQuadric : public Quadric {
  private:
   /// Antiderivative of the arc-length-weighted radius r sqrt(1 + r'²): area below z is 2 pi times it.
   double bandArea(double z) const;
+  double bandAreaWithoutGap(double z) const;
   double heightOfBand(double u) const;
 
   Profile profile_;

@@ -16,7 +16,7 @@ namespace pbrtmedia {
 /// A point sampled on a shape.
 struct ShapeSample {
   Point3f p;
-  Normal3f n;     ///< unit, oriented as for emission
+  Normal3f n;     ///< unit, oriented as at hits
   float pdf = 0;  ///< area measure (1/length²) or solid angle (1/sr), as the function says; 0: unusable
 };
 
@@ -38,6 +38,13 @@ class Shape {
   virtual SurfaceInteraction interaction(const RayHit& hit, const Ray& ray) const = 0;
   /// (u, v) only, for alpha tests.
   virtual Point2f uvAt(const RayHit& hit) const = 0;
+
+  /// Whether PBRT-v3 samples this shape, when it is a light, with normals opposite to those of hits, so that
+  /// light samples find the side emitting that is seen dark (scene-language reference 13.1, 13.3).
+  virtual bool isSampledFromBehind() const { return false; }
+  /// Area of the surface that PBRT-v3 samples in place of this shape when it is a light: that of the shape
+  /// before its transformation, and of a whole sphere for a part of one. World-space area where it is right.
+  virtual double areaSampledByPbrt(std::uint32_t primitive) const { return area(primitive); }
 
   /// World-space area of one primitive.
   virtual double area(std::uint32_t primitive) const = 0;

@@ -75,6 +75,8 @@ double Sphere::worldDensity(double objectDensity, Vec3d d) const {
   return objectDensity * stretch * stretch * stretch / volumeScale();
 }
 
+double Sphere::areaSampledByPbrt(std::uint32_t) const { return 4 * std::numbers::pi * radius_ * radius_; }
+
 ShapeSample Sphere::sample(std::uint32_t primitive, Point3f reference, Point2f u) const {
   const Vec3d from = objectPoint(Vec3d(reference));
   const auto cone = coneFrom(from, reference);

@@ -19,6 +19,7 @@ class Sphere final : public RevolvedQuadric {
   std::string_view typeName() const override { return "sphere"; }
   bool isClosed() const override { return isComplete_; }
 
+  double areaSampledByPbrt(std::uint32_t primitive) const override;
   using Quadric::sample;
   /// A complete sphere seen from outside: uniform in the cone of directions that meets it (in object space,
   /// so ellipsoids too); otherwise by area.

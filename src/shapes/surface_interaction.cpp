@@ -51,18 +51,10 @@ void SurfaceInteraction::setShading(Normal3f ns, Vector3f dpdus, Vector3f dpdvs,
 }
 
 SurfaceInteraction transformInteraction(const Transform& worldFromObject, const SurfaceInteraction& si) {
-  // Derivative of the normalised mapped normal: the part across it, over its length before normalisation.
   const auto mapNormal = [&](Normal3f from, Normal3f& du, Normal3f& dv) {
-    const Vec3d mapped = worldFromObject.normal(Vec3d(from));
-    const double size = length(mapped);
-    const Vec3d unit = mapped / size;
-    const auto derivative = [&](Normal3f d) {
-      const Vec3d m = worldFromObject.normal(Vec3d(d));
-      return Normal3f((m - dot(unit, m) * unit) / size);
-    };
-    du = derivative(du);
-    dv = derivative(dv);
-    return Normal3f(unit);
+    du = worldFromObject.normal(du);
+    dv = worldFromObject.normal(dv);
+    return Normal3f(normalize(worldFromObject.normal(Vec3d(from))));
   };
   SurfaceInteraction r = si;
   r.p = worldFromObject.point(si.p);

@@ -16,7 +16,7 @@ struct SurfaceInteraction {
   Normal3f n;   ///< unit geometric normal after all orientation rules (scene-language reference 13.1)
   Point2f uv;
   Vector3f dpdu, dpdv;
-  Normal3f dndu, dndv;
+  Normal3f dndu, dndv;  ///< as in PBRT-v3: of the normal before orientation, see transformInteraction
   struct Shading {
     Normal3f n;  ///< unit, on the side of the geometric normal
     Vector3f dpdu, dpdv;
@@ -37,7 +37,9 @@ struct SurfaceInteraction {
                   bool orientationIsAuthoritative);
 };
 
-/// The interaction seen through a placement; `wo` is transformed too (and stays unit length).
+/// The interaction seen through a placement; `wo` is transformed too (and stays unit length). Derivatives of
+/// normals are mapped as vectors across surfaces are, as in PBRT-v3: those of the unit normal where nothing
+/// scales, times 1/s under a uniform scale s. Bump maps of existing scenes are made for it.
 SurfaceInteraction transformInteraction(const Transform& worldFromObject, const SurfaceInteraction& si);
 
 }  // namespace pbrtmedia

@@ -117,6 +117,7 @@ TriangleMesh::TriangleMesh(Params params, const ShapePlacement& placement, std::
   positions_.emplace_back();
 
   normals_ = std::move(params.N);
+  reversesNormals_ = placement.reverseOrientation;
   for (Normal3f& n : normals_) n = placement.reverseOrientation ? -t.normal(n) : t.normal(n);
   tangents_ = std::move(params.S);
   for (Vector3f& s : tangents_) s = t.vector(s);
@@ -127,6 +128,7 @@ TriangleMesh::TriangleMesh(Params params, const ShapePlacement& placement, std::
   // A mirroring CTM turns the cross product of the world-space edges; undone, so that the object's front
   // stays.
   const bool onlyTangents = normals_.empty() && !tangents_.empty();
+  isSampledFromBehind_ = placement.reverseOrientation && (!normals_.empty() || !tangents_.empty());
   flipsFace_ = onlyTangents ? t.swapsHandedness() : placement.flipsNormal();
 }
 
@@ -222,9 +224,10 @@ SurfaceInteraction TriangleMesh::interaction(const RayHit& hit, const Ray& ray) 
   Vec3d dndu, dndv;
   if (nsLength > 0) {
     const auto dn = uvDerivatives(uv, {Vec3d(normals_[c[0]]), Vec3d(normals_[c[1]]), Vec3d(normals_[c[2]])});
-    if (dn) {  // of the normalised normal: the part across it
-      dndu = (dn->du - dot(dn->du, ns) * ns) / nsLength;
-      dndv = (dn->dv - dot(dn->dv, ns) * ns) / nsLength;
+    const double side = reversesNormals_ ? -1 : 1;
+    if (dn) {
+      dndu = side * dn->du;
+      dndv = side * dn->dv;
     }
   }
   si.setShading(Normal3f(ns), Vector3f(dpdus), Vector3f(dpdvs), Normal3f(dndu), Normal3f(dndv),

@@ -25,7 +25,8 @@ struct MeshProblem {
 /// but no N ReverseOrientation has no effect (as PBRT-v3). Sampled normals agree with those of hits.
 ///
 /// With N or S the shading tangents are unit vectors turned by 180 degrees about the normal, as in PBRT-v3:
-/// scenes with bump maps were tuned against it (PBRT-v3 issues 188, 261).
+/// scenes with bump maps were tuned against it (PBRT-v3 issues 188, 261). For the same reason derivatives of
+/// normals are those of N as given and mapped by the CTM (of no certain length), without ReverseOrientation.
 class TriangleMesh final : public Shape {
  public:
   /// Object space. Only `indices` and `P` are required.
@@ -53,6 +54,9 @@ class TriangleMesh final : public Shape {
   Geometry geometry() const override;
   SurfaceInteraction interaction(const RayHit& hit, const Ray& ray) const override;
   Point2f uvAt(const RayHit& hit) const override;
+  /// PBRT-v3 samples sides without ReverseOrientation where N decides, and with it where S cancels it at
+  /// hits.
+  bool isSampledFromBehind() const override { return isSampledFromBehind_; }
   double area(std::uint32_t primitive) const override;
   using Shape::sample;
   ShapeSample sample(std::uint32_t primitive, Point2f u) const override;
@@ -78,6 +82,7 @@ class TriangleMesh final : public Shape {
   std::vector<Point2f> uv_;
   std::vector<std::uint32_t> faceIndices_;
   Bounds3f bounds_;
+  bool reversesNormals_, isSampledFromBehind_;
   bool flipsFace_;  ///< without N: whether the world-space (p1 - p0) x (p2 - p0) is turned
 };
 

@@ -156,5 +156,56 @@ TEST_F(ConstructLight, EveryParameterOfAreaLightsHasItsEffect) {
                 maker(), surfaces);
 }
 
+TEST_F(ConstructLight, SaysByWhichFactorPbrtDiffers) {
+  const StrictAttempts strict;  // our answer stays, so it is no error
+  const std::string area = "AreaLightSource \"diffuse\" ";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"Scale .125 .125 .125 " + area + "Shape \"sphere\"", "with 64 times the area"},
+      {"Scale 2 2 2 " + area + "Shape \"sphere\"", "with 0.25 times the area"},
+      {area + "Shape \"sphere\" \"float zmin\" 0", "with 2 times the area"},
+      {"Scale .5 .5 .5 " + area + "Shape \"sphere\" \"float phimax\" 180", "with 8 times the area"},
+      {"Scale .5 1 1 " + area + "Shape \"cylinder\"", "scales it, 1.3 times the area"},
+      {"Scale .5 .25 9 " + area + "Shape \"disk\"", "scales it, 8 times the area"},
+      {"Scale .1 .1 .1 LightSource \"infinite\"", "the transformation scales by 0.1"},
+      {"Scale 1 4 1 LightSource \"exinfinite\"", "the transformation scales by 4"},
+  };
+  for (const auto& [light, said] : cases) {
+    const Attempt a = with(light);
+    EXPECT_TRUE(a.warns(said)) << light << '\n' << a.messages();
+  }
+}
+
+TEST_F(ConstructLight, SaysWhereTheSideThatIlluminatesIsNotTheOneThatIsSeen) {
+  const std::string area = "AreaLightSource \"diffuse\" ", mirror = "Scale -1 1 1 ";
+  const std::string mesh =
+      "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 ] ";
+  const std::string withN = mesh + "\"normal N\" [ 0 0 1 0 0 1 0 0 1 ]";
+  for (const std::string& light : {mirror + area + "Shape \"sphere\"", mirror + area + "Shape \"cone\"",
+                                   "ReverseOrientation " + area + withN}) {
+    EXPECT_TRUE(with(light).warns("as in PBRT-v3 light samples find the side")) << light;
+    const StrictAttempts strict;
+    EXPECT_TRUE(with(light).failsWith("as in PBRT-v3 light samples find the side")) << light;
+  }
+}
+
+TEST_F(ConstructLight, SaysNothingOfLightsThatPbrtRendersAsWell) {
+  const std::string area = "AreaLightSource \"diffuse\" ";
+  const std::string mesh =
+      "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point P\" [ 0 0 0 1 0 0 0 1 0 ] "
+      "\"normal N\" [ 0 0 1 0 0 1 0 0 1 ]";
+  const std::vector<std::string> silent = {
+      "Rotate 40 1 2 3 Translate 1 2 3 " + area + "Shape \"sphere\" \"float radius\" .125",
+      "Rotate 40 1 2 3 LightSource \"infinite\"",
+      "Scale -1 1 1 LightSource \"infinite\"",
+      "Scale -2 2 2 " + area + mesh,
+      "ReverseOrientation " + area + "Shape \"disk\"",
+      "ReverseOrientation AreaLightSource \"diffuse\" \"bool twosided\" \"true\" " + mesh,
+      "Scale -1 1 1 AreaLightSource \"diffuse\" \"bool twosided\" \"true\" Shape \"sphere\""};
+  for (const std::string& light : silent) {
+    const Attempt a = with(light);
+    EXPECT_TRUE(a.isSilent()) << light << '\n' << a.messages();
+  }
+}
+
 }  // namespace
 }  // namespace pbrtmedia::test

@@ -41,7 +41,7 @@ TEST(ConstructShape, EveryParameterOfQuadricsHasItsEffect) {
   add("disk", {radius, "\"float height\" 0.3", "\"float innerradius\" 0.2", phimax});
   add("cone", {radius, "\"float height\" 0.3", phimax});
   add("paraboloid", {radius, "\"float zmin\" 0.3", zmax, phimax});
-  add("hyperboloid", {"\"point p1\" [ 0.2 0 -0.5 ]", "\"point p2\" [ 0.9 0.3 0.7 ]", phimax});
+  add("hyperboloid", {"\"point p1\" [ 1 -1 -1 ]", "\"point p2\" [ 0.9 0.3 0.7 ]", phimax});
   expectEffects(effects, with, surfaces);
   expectSame(
       {{"Shape \"sphere\"",
@@ -52,6 +52,16 @@ TEST(ConstructShape, EveryParameterOfQuadricsHasItsEffect) {
        {"Shape \"paraboloid\"", "Shape \"paraboloid\" \"float radius\" 1 \"float zmin\" 0 \"float zmax\" 1"},
        {"Shape \"hyperboloid\"", "Shape \"hyperboloid\" \"point p1\" [ 0 0 0 ] \"point p2\" [ 1 1 1 ]"}},
       with, surfaces);
+}
+
+TEST(ConstructShape, SaysWhenAHyperboloidIsNotWhatItsSegmentSweeps) {
+  const std::string elsewhere = "Shape \"hyperboloid\" \"point p1\" [ -2 .5 .4 ] \"point p2\" [ -.7 -.3 -1 ]",
+                    empty = "Shape \"hyperboloid\" \"point p1\" [ 1 0 -1 ] \"point p2\" [ 0 0 1 ]";
+  EXPECT_TRUE(attemptWorld(elsewhere).warns("with radius 0.6366 at p1 instead of 2.062"));
+  EXPECT_TRUE(
+      attemptWorld(elsewhere, {.strict = true}).failsWith("with radius 0.6366 at p1 instead of 2.062"));
+  EXPECT_TRUE(attemptWorld(empty).warns("nothing is rendered"));
+  EXPECT_TRUE(attemptWorld("Shape \"hyperboloid\"").isSilent()) << "PBRT-v3 never ends; here it is a cone";
 }
 
 TEST(ConstructShape, EveryParameterOfMeshesHasItsEffect) {

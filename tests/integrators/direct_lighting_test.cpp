@@ -84,6 +84,62 @@ TEST(Whitted, DepthLimitsTheLevelsOfRecursion) {
   EXPECT_EQ(estimate(*makePath(*scene, {.maxDepth = 0}), down, 1).red.mean(), 0);
 }
 
+/// A sphere that mirrors and emits inside: after k reflections L Kr^k is seen.
+std::unique_ptr<Scene> shiningMirror(float kr) {
+  SceneKit kit;
+  const RgbTexture* texture = kit.builder.own(std::make_unique<ConstantTexture<Rgb>>(Rgb(kr)));
+  const Material* mirror = kit.builder.own(std::make_unique<MirrorMaterial>(MirrorParams{.kr = texture}));
+  const Shape* sphere = kit.sphere({0, 0, 0}, 5, /*reverse=*/true);
+  kit.builder.addPrimitive({.shape = sphere, .material = mirror, .areaLights = kit.emitters(sphere, Rgb(1))});
+  return kit.finish();
+}
+
+TEST(SpecularRecursion, HasAnyNumberOfLevels) {
+  constexpr float kKr = 0.999f;
+  const auto scene = shiningMirror(kKr);
+  const Ray ray = rayOf({0.1f, 0.2f, 1}, {0.3f, 0.5f, -1});
+  for (const int levels :
+       {1, 10, SpecularRecursion::kExactLevels - 1, SpecularRecursion::kExactLevels,
+        SpecularRecursion::kExactLevels + 1, 3 * SpecularRecursion::kExactLevels, 200000}) {
+    const double truth = (1 - std::pow(double{kKr}, levels)) / (1 - double{kKr});
+    EXPECT_NEAR(estimate(WhittedIntegrator(*scene, {.maxDepth = levels}), ray, 1).red.mean(), truth,
+                1e-3 * truth)
+        << levels;
+    EXPECT_NEAR(estimate(DirectLightingIntegrator(*scene, {.maxDepth = levels}), ray, 1).red.mean(), truth,
+                1e-3 * truth)
+        << levels;
+  }
+}
+
+TEST(SpecularRecursion, LeavesWhatIsTooDimForAFloat) {
+  const auto scene = shiningMirror(0.5f);
+  const Estimates e =
+      estimate(WhittedIntegrator(*scene, {.maxDepth = 10000000}), rayOf({0.1f, 0, 1}, {0, 1, 0}), 1);
+  EXPECT_NEAR(e.red.mean(), 2, 1e-5);
+  EXPECT_LE(e.counters.rays, SpecularRecursion::kExactLevels + 2u);
+}
+
+/// Two rays at every hit of a glass ball under a white sky: all of it arrives, however near to the rim, where
+/// light goes round thousands of times.
+TEST(SpecularRecursion, FollowsBothRaysOfGlassAtAnyLevel) {
+  SceneKit kit;
+  const RgbTexture* white = kit.builder.own(std::make_unique<ConstantTexture<Rgb>>(Rgb(1)));
+  const FloatTexture* eta = kit.builder.own(std::make_unique<ConstantTexture<float>>(1.5f));
+  const FloatTexture* zero = kit.builder.own(std::make_unique<ConstantTexture<float>>(0.0f));
+  const Material* glass = kit.builder.own(std::make_unique<GlassMaterial>(
+      GlassParams{.kr = white, .kt = white, .eta = eta, .uRoughness = zero, .vRoughness = zero}));
+  kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 1), .material = glass});
+  kit.sky(1);
+  const auto scene = kit.finish();
+  const WhittedIntegrator deep(*scene, {.maxDepth = 1000000});
+  for (const float off : {0.0f, 0.5f, 0.9f, 0.999f}) {
+    EXPECT_NEAR(estimate(deep, rayOf({off, 0.01f, 4}, {0, 0, -1}), 1).red.mean(), 1, 1e-4) << off;
+  }
+  const Estimates rim = estimate(deep, rayOf({0.99999994f, 0, 4}, {0, 0, -1}), 1);
+  EXPECT_NEAR(rim.red.mean(), 1, 1e-3);
+  EXPECT_GT(rim.counters.surfaceScatterings, SpecularRecursion::kExactLevels + 100u);
+}
+
 // ---- Ray differentials
 // -------------------------------------------------------------------------------------
 

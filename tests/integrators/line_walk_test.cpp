@@ -107,5 +107,61 @@ TEST(LineWalk, TakesFirstWhatFitsAmongCoincidentBoundaries) {
   }
 }
 
+/// How many hits a walk from the camera at `o` along `d` delivers.
+std::size_t hitsFromCamera(const Scene& scene, Point3f o, Vector3f d) {
+  const Ray ray = rayOf(o, d);
+  LineWalk walk = LineWalk::fromCamera(scene, ray);
+  std::uint64_t queries = 0;
+  std::size_t n = 0;
+  while (walk.next(queries)) ++n;
+  return n;
+}
+
+TEST(LineWalk, FromTheCameraLeavesOutSurfacesThatHoldIt) {
+  SceneKit kit;
+  kit.builder.addPrimitive({.shape = kit.square(0, 2), .material = kit.black()});
+  kit.builder.addPrimitive({.shape = kit.sphere({1, 2, 2}, 3), .material = kit.black()});  // through 0
+  const auto scene = kit.finish();
+  EXPECT_EQ(hitsFromCamera(*scene, {0, 0, 0}, {0.1f, 0.2f, 1}), 1u) << "the far side of the sphere";
+  EXPECT_EQ(hitsFromCamera(*scene, {0, 0, 0}, {-0.1f, -0.2f, -1}), 0u);
+  EXPECT_EQ(hitsFromCamera(*scene, {0, 0, 1e-4f}, {0.1f, 0.2f, -1}), 2u) << "close is not through";
+}
+
+TEST(LineWalk, FromTheCameraKnowsRoundedSurfaces) {
+  // Planes and spheres whose coordinates are rounded: the ray starts some float spacings before or behind.
+  Rng rng(4);
+  const auto random = [&] {
+    return Vector3f(rng.uniform(), rng.uniform(), rng.uniform()) - Vector3f(0.5f, 0.5f, 0.5f);
+  };
+  for (int i = 0; i < 300; ++i) {
+    const Point3f o = 20.0f * random();
+    const Vector3f a = 4.0f * random(), b = 4.0f * random(), d = random();
+    SceneKit kit;
+    kit.builder.addPrimitive(
+        {.shape = kit.quad(o - a - b, o + a - b, o + a + b, o - a + b), .material = kit.black()});
+    const float radius = length(a);
+    kit.builder.addPrimitive({.shape = kit.sphere(o + a, radius), .material = kit.black()});
+    const auto scene = kit.finish();
+    EXPECT_EQ(hitsFromCamera(*scene, o, d), dot(a, d) > 0 ? 1u : 0u) << i;
+  }
+}
+
+TEST(LineWalk, FromTheCameraCountsBoundariesButNotEmittersThatHoldIt) {
+  SceneKit emitters, boundaries;
+  const Shape* emitter = emitters.square(0, 1);
+  emitters.builder.addPrimitive({.shape = emitter, .areaLights = emitters.emitters(emitter, Rgb(1))});
+  boundaries.builder.addPrimitive(
+      {.shape = boundaries.square(0, 2), .media = {boundaries.fog("fog", Rgb(1), Rgb(0)), nullptr}});
+  EXPECT_EQ(hitsFromCamera(*emitters.finish(), {0.1f, 0.2f, 0}, {0, 0.1f, 1}), 0u);
+  EXPECT_EQ(hitsFromCamera(*boundaries.finish(), {0.1f, 0.2f, 0}, {0, 0.1f, 1}), 1u);
+}
+
+TEST(LineWalk, FromTheCameraSeesTheGroundOfALargeWorld) {
+  SceneKit kit;
+  kit.builder.addPrimitive({.shape = kit.square(0, 1e4f), .material = kit.black()});
+  const auto scene = kit.finish();
+  EXPECT_EQ(hitsFromCamera(*scene, {3, 2, 0.01f}, {1, 1, -1}), 1u) << "a centimetre above 20 kilometres";
+}
+
 }  // namespace
 }  // namespace pbrtmedia

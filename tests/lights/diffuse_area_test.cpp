@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "lights/light_test_support.h"
+#include "shapes/cone.h"
+#include "shapes/cylinder.h"
 #include "shapes/disk.h"
+#include "shapes/shape_probe.h"
 #include "shapes/sphere.h"
 #include "shapes/triangle_mesh.h"
 
@@ -115,6 +118,86 @@ TEST(DiffuseAreaLight, PdfOfAHitEqualsThatOfTheSample) {
     }
     EXPECT_EQ(light.pdf(reference, {0, 0, 1}, nullptr), 0) << "nothing of this light was hit";
   }
+}
+
+/// Which side of a shape emits as light samples find it, and as hits do: +1 that of `outward`, -1 the other.
+struct Sides {
+  int sampled, seen;
+  bool operator==(const Sides&) const = default;
+};
+std::ostream& operator<<(std::ostream& os, const Sides& s) {
+  return os << "sampled " << s.sampled << ", seen " << s.seen;
+}
+
+/// `p`: a point of the surface with the unit vector `outward` across it, of a shape that is alone there.
+Sides sidesOf(const Shape& shape, Point3f p, Vector3f outward) {
+  const DiffuseAreaLight light(shape, 0, kTarget, {});
+  const test::Probe probe(shape);
+  Sides sides{0, 0};
+  for (const int side : {1, -1}) {
+    const Point3f from = p + static_cast<float>(side) * 0.5f * outward;
+    const auto hit = probe.at(test::makeRay(from, static_cast<float>(-side) * outward));
+    if (!hit) throw std::logic_error("the test ray must hit");
+    if (!light.emitted(hit->n, hit->wo).isBlack()) sides.seen += side;
+    // Of the samples those around the point, not those across an open shape.
+    Rng rng(5);
+    int lit = 0, dark = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const LightSample s = light.sample(from, {rng.uniform(), rng.uniform()});
+      if (!(s.pdf > 0) || dot(s.wi, static_cast<float>(-side) * outward) < 0.9f || s.distance > 0.6f)
+        continue;
+      ++(s.radiance.isBlack() ? dark : lit);
+    }
+    if (lit > 0 && dark > 0) throw std::logic_error("some samples of one side emit");
+    if (lit > 0) sides.sampled += side;
+  }
+  return sides;
+}
+
+TEST(DiffuseAreaLight, OfMirroredQuadricsIsSampledAsWithoutTheMirror) {
+  for (const bool mirrored : {false, true}) {
+    for (const bool reversed : {false, true}) {
+      const ShapePlacement place{mirrored ? Transform::scale(1, -1, 1) : Transform(), reversed};
+      const int lit = reversed ? -1 : 1, seen = reversed != mirrored ? -1 : 1;
+      const Sides expected{lit, seen};
+      const std::string what = std::string(mirrored ? "mirrored " : "") + (reversed ? "reversed " : "");
+      EXPECT_EQ(sidesOf(Sphere(Sphere::Params{}, place), {1, 0, 0}, {1, 0, 0}), expected) << what << "sphere";
+      EXPECT_EQ(sidesOf(Cylinder({}, place), {1, 0, 0}, {1, 0, 0}), expected) << what << "cylinder";
+      EXPECT_EQ(sidesOf(Disk({}, place), {0.5f, 0, 0}, {0, 0, 1}), expected) << what << "disk";
+      EXPECT_EQ(sidesOf(Cone({}, place), {0.5f, 0, 0.5f}, normalize(Vector3f(1, 0, 1))), expected)
+          << what << "cone";
+    }
+  }
+}
+
+TEST(DiffuseAreaLight, OfMeshesWithNormalsIsSampledOnTheirSideReversedOrNot) {
+  const Normal3f up(0, 0, 1);
+  for (const bool mirrored : {false, true}) {
+    for (const bool reversed : {false, true}) {
+      const ShapePlacement place{mirrored ? Transform::scale(1, -1, 1) : Transform(), reversed};
+      TriangleMesh::Params params;
+      params.indices = {0, 1, 2};
+      params.P = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+      const int turned = reversed ? -1 : 1;
+      const auto sides = [&] { return sidesOf(TriangleMesh(params, place), {0, 0, 0}, up); };
+      EXPECT_EQ(sides(), (Sides{turned, turned})) << "neither N nor S";
+      params.S.assign(3, {1, 0, 0});
+      EXPECT_EQ(sides(), (Sides{turned, 1})) << "S: seen as if not reversed";
+      params.N.assign(3, up);
+      EXPECT_EQ(sides(), (Sides{1, turned})) << "N: sampled as if not reversed";
+    }
+  }
+}
+
+TEST(DiffuseAreaLight, KnowsTheAreaThatPbrtSamplesInItsPlace) {
+  const ShapePlacement half{Transform::scale(0.5, 0.5, 0.5), false};
+  const double pi = std::numbers::pi;
+  EXPECT_NEAR(Sphere({.radius = 2, .zmax = 0}, half).areaSampledByPbrt(0), 16 * pi, 1e-12);
+  EXPECT_NEAR(Sphere({.radius = 2, .zmax = 0}, half).area(0), 2 * pi, 1e-12);
+  EXPECT_NEAR(Disk({.radius = 2}, half).areaSampledByPbrt(0), 4 * pi, 1e-12);
+  EXPECT_NEAR(Disk({.radius = 2}, half).area(0), pi, 1e-12);
+  const TriangleMesh mesh = oneTriangle();
+  EXPECT_EQ(mesh.areaSampledByPbrt(0), mesh.area(0));
 }
 
 TEST(DiffuseAreaLight, PowerIsPiTimesAreaTimesRadiance) {

@@ -51,6 +51,26 @@ inline const std::vector<ExpectedBlock> kDarkBall{
 /// The image of nothing but the sky.
 inline const std::vector<ExpectedBlock> kSkyOnly{{1, 1, kSky}, {2, 2, kSky}, {0, 0, kSky}};
 
+/// A wall at z = 4 before two sheets of one light behind the camera, wide enough for a half space of radiance
+/// 1 each: of the nearer one the wall shows 0.5.
+inline const std::string kTwoSheets =
+    "AttributeBegin Material \"none\" AreaLightSource \"diffuse\" \"bool twosided\" \"true\" "
+    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 4 5 6 4 6 7 ] \"point P\" [ "
+    "-1e5 -1e5 -1 1e5 -1e5 -1 1e5 1e5 -1 -1e5 1e5 -1  -1e5 -1e5 -2 1e5 -1e5 -2 1e5 1e5 -2 -1e5 1e5 -2 ] "
+    "AttributeEnd Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] "
+    "\"point P\" [ -9 -9 4 9 -9 4 9 9 4 -9 9 4 ]\n";
+inline const std::vector<ExpectedBlock> kWallHalf{
+    {0, 0, {.5, .5, .5}}, {1, 1, {.5, .5, .5}}, {2, 2, {.5, .5, .5}}};
+/// The layers of a cylinder that emits, in the inner blocks.
+inline const std::string kBareLamp =
+    "AreaLightSource \"diffuse\" \"rgb L\" [ 3 3 3 ] \"bool twosided\" \"true\" Material \"none\" "
+    "Translate 0 0 4 Rotate 90 1 0 0 Shape \"cylinder\"\n";
+inline std::string withIntegrator(const std::string& integrator, const std::string& world) {
+  return "Integrator \"" + integrator +
+         "\" \"integer maxdepth\" 1 Camera \"perspective\" \"float fov\" 40\n" + "WorldBegin\n" + world +
+         "WorldEnd\n";
+}
+
 inline std::vector<CorpusScene> corpus() {
   return {
       // ---- Text and graphics state.
@@ -147,6 +167,32 @@ inline std::vector<CorpusScene> corpus() {
       // ---- Media and their boundaries.
 
       // ---- Lights and shapes.
+      {"light without material path", withIntegrator("path", kTwoSheets), "", kWallHalf},
+      {"light without material volpath", withIntegrator("volpath", kTwoSheets), "", kWallHalf},
+      {"light without material direct", withIntegrator("directlighting", kTwoSheets), "", kWallHalf},
+      {"light without material seen by path",
+       withIntegrator("path", kBareLamp),
+       "",
+       {{1, 1, {6, 6, 6}}, {2, 2, {6, 6, 6}}}},
+      {"light without material seen by whitted",
+       withIntegrator("whitted", kBareLamp),
+       "",
+       {{1, 1, {}}, {0, 0, {}}}},
+      {"light without material seen directly",
+       withIntegrator("directlighting", kBareLamp),
+       "",
+       {{1, 1, {}}, {2, 2, {}}}},
+      {"disk through the camera", "Shape \"disk\" \"float radius\" 2\n", "", kSkyOnly},
+      {"sphere through the camera", "Rotate 20 1 2 0 Translate 0 0 -7 Shape \"sphere\" \"float radius\" 7\n",
+       "", kSkyOnly},
+      {"orthographic camera in a wall",
+       "Integrator \"path\" Camera \"orthographic\" WorldBegin LightSource \"infinite\" \"rgb L\" [ .5 .5 .5 "
+       "] "
+       "Rotate 30 0 0 1 Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] "
+       "\"point P\" [ -9 -9 0 9 -9 0 9 9 0 -9 9 0 ] WorldEnd",
+       "", kSkyOnly},
+      {"hyperboloid of nothing", "Shape \"hyperboloid\" \"point p1\" [ 1 0 3 ] \"point p2\" [ 0 0 5 ]\n",
+       "has no part between the heights", kSkyOnly},
 
       // ---- Parameters of plugins: textures, materials, meshes, maps.
       {"texture-unknown", "Material \"matte\" \"texture Kd\" \"tower\"\n" + kBall,
@@ -256,6 +302,11 @@ inline std::vector<const char*> renderedCases() {
       "medium-of-instance-direct",
 
       // ---- Lights and shapes.
+      "light-mirrored-sphere",
+      "light-without-material",
+      "light-without-material-seen",
+      "surface-through-camera",
+      "hyperboloid",
 
       // ---- Parameters of plugins: textures, materials, meshes, maps.
       "density-negative",

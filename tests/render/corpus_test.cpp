@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -142,6 +143,53 @@ TEST_P(RenderedCase, AgreesWithPbrtUpToNoise) {
   }
   std::printf("%-28s squared distance %.3f of the noise\n", name.c_str(), squaredDistance / variance);
   EXPECT_LT(squaredDistance, kMaxNoiseRatio * variance);
+}
+
+/// With the sampler and the number of samples of the reference nothing is random: of the image rounding is
+/// left.
+TEST(ComparedCase, BumpsOfInstancesAreThoseOfPbrt) {
+  if (!std::filesystem::is_directory(caseFolder())) GTEST_SKIP() << "the cases are not beside this checkout";
+  const Image reference = readImage(caseFolder() / "reference" / "bump-of-instance.exr");
+  const Image ours = renderFile(caseFolder() / "bump-of-instance.pbrt", {.samplesPerPixel = 1024}).image;
+  ASSERT_EQ(ours.width(), reference.width());
+  double squaredDistance = 0;
+  for (int y = 0; y < ours.height(); ++y) {
+    for (int x = 0; x < ours.width(); ++x) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        squaredDistance += std::pow(double{ours.at(x, y, c)} - reference.at(x, y, c), 2);
+      }
+    }
+  }
+  EXPECT_LT(std::sqrt(squaredDistance / (3.0 * ours.width() * ours.height())), 2e-4);  // of values up to 0.4
+}
+
+/// Mean of rows [first, last) and columns of the middle half over that of the reference, green.
+double ratioToPbrt(const std::string& name, int first, int last, std::string& warnings) {
+  const Image reference = readImage(caseFolder() / "reference" / (name + ".exr"));
+  const Rendered ours = renderFile(caseFolder() / (name + ".pbrt"));
+  warnings = ours.warnings;
+  double a = 0, b = 0;
+  for (int y = first; y < last; ++y) {
+    for (int x = 4; x < 12; ++x) {
+      a += reference.at(x, y, 1);
+      b += ours.image.at(x, y, 1);
+    }
+  }
+  return a / b;
+}
+
+/// Where our answer stays: by how much PBRT-v3 differs.
+TEST(ComparedCase, LightsInScaledSpacesDifferByTheFactorsThatAreSaid) {
+  if (!std::filesystem::is_directory(caseFolder())) GTEST_SKIP() << "the cases are not beside this checkout";
+  std::string warnings;
+  const double sphere = ratioToPbrt("light-scaled-sphere", 4, 16, warnings);
+  EXPECT_NE(warnings.find("with 64 times the area"), std::string::npos) << warnings;
+  EXPECT_GT(sphere, 0.85 * 64);  // less than 64 where the larger sphere is near
+  EXPECT_LT(sphere, 64);
+  const double ball = ratioToPbrt("sky-scaled", 4, 12, warnings);
+  EXPECT_NE(warnings.find("the transformation scales by 0.1"), std::string::npos) << warnings;
+  EXPECT_GT(ball, 0.1);
+  EXPECT_LT(ball, 0.15);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RenderedCase, testing::ValuesIn(renderedCases()),

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <numbers>
+
 #include "shapes/shape_probe.h"
 
 namespace pbrtmedia {
@@ -105,9 +109,87 @@ TEST(Paraboloid, HasKnownPointsNormalsAndParameters) {
 }
 
 TEST(Hyperboloid, HasKnownPointsNormalsAndParameters) {
-  // The segment's middle (1, 1/2, 0), turned by a quarter.
+  // The segment's middle (1, 0, 0) and three quarters of it (1, 1/2, 1/2), turned by a quarter.
+  const Hyperboloid hyperboloid({.p1 = {1, -1, -1}, .p2 = {1, 1, 1}}, kPlain);
+  expectHit(hyperboloid, {{0, 1, 0}, {0, 1, 0}, {0.25, 0.5}}, 0.05);
+  expectHit(hyperboloid, {{-0.5, 1, 0.5}, {-1, 2, -1}, {0.25, 0.75}}, 0.05);
+}
+
+TEST(Hyperboloid, WithItsWaistElsewhereIsPbrtsSurface) {
+  // The circles through p2 and p1 + 2 (p2 - p1) = (1, 2, 3) give r² = 13/8 + 3/8 z²; (u, v) and normals are
+  // those of the segment's middle (1, 1/2, 0), turned by a quarter.
+  const Hyperboloid::Params params{.p1 = {1, 0, -1}, .p2 = {1, 1, 1}};
+  const Hyperboloid hyperboloid(params, kPlain);
+  const double r = std::sqrt(1.625 / 1.25);
+  expectHit(hyperboloid, {{-0.5 * r, r, 0}, {-1, 2, -0.5}, {0.25, 0.5}}, 0.05);
+  const Hyperboloid::Waist waist = Hyperboloid::waist(params);
+  EXPECT_TRUE(waist.isElsewhere);
+  EXPECT_NEAR(waist.radius, std::sqrt(2), 1e-12);
+  EXPECT_NEAR(waist.sweptRadius, 1, 1e-12);
+  EXPECT_NEAR(hyperboloid.bounds().max.x, std::sqrt(2), 1e-6);
+  EXPECT_FALSE(Hyperboloid::waist({.p1 = {1, -1, -1}, .p2 = {1, 1, 1}}).isElsewhere);
+}
+
+TEST(Hyperboloid, WhoseNormalsAreNotItsOwnStopsRaysOnTheirSide) {
+  // At the point (-r/2, r, 0) of the test above the surface is vertical, but the normal leans down: what
+  // leaves on its side and goes inward is stopped where it starts, and so is the opposite.
   const Hyperboloid hyperboloid({.p1 = {1, 0, -1}, .p2 = {1, 1, 1}}, kPlain);
-  expectHit(hyperboloid, {{-0.5, 1, 0}, {-1, 2, -0.5}, {0.25, 0.5}}, 0.05);
+  const Probe probe(hyperboloid);
+  const float r = std::sqrt(1.625f / 1.25f);
+  const Point3f p(-0.5f * r, r, 0);
+  const Vector3f outward = normalize(Vector3f(-0.5f, 1, 0));
+  const std::array start{0.0f};
+  const auto stops = [&](Vector3f d) {
+    const auto root = hyperboloid.intersect(makeRay(p, d), 0, kInfinity, start);
+    return root && root->t == 0;
+  };
+  EXPECT_FALSE(stops(outward));
+  EXPECT_FALSE(stops(-outward));
+  EXPECT_TRUE(stops(Vector3f(0, 0, -1) - 0.1f * outward));
+  EXPECT_TRUE(stops(Vector3f(0, 0, 1) + 0.1f * outward));
+  EXPECT_FALSE(stops(Vector3f(0, 0, -1) + 0.1f * outward));
+  EXPECT_FALSE(stops(Vector3f(0, 0, 1) - 0.1f * outward));
+}
+
+TEST(Hyperboloid, ThatIsASpheroidHasItsArea) {
+  // p1 + 2 (p2 - p1) = (0, 1, 3): r² = (41 - z²) / 32.
+  const Hyperboloid hyperboloid({.p1 = {2, 0, -1}, .p2 = {1, 0.5f, 1}}, kPlain);
+  constexpr int kSteps = 100000;
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double z = lerp((i + 0.5) / kSteps, -1.0, 1.0);
+    sum += std::sqrt((41 - z * z) / 32 + sqr(z / 32));
+  }
+  EXPECT_NEAR(hyperboloid.area(0), 2 * std::numbers::pi * sum * 2 / kSteps, 1e-8);
+}
+
+TEST(Hyperboloid, OfTwoSheetsHasTheAreaOfBothAndSamplesNothingElse) {
+  // r² = A + B z² through (0.13, 1.5) and, at p1 + 2 (p2 - p1), (2.92, 5): nothing between -1.09 and 1.09.
+  const Hyperboloid hyperboloid({.p1 = {2, 0, -2}, .p2 = {0.2f, 0.3f, 1.5f}}, kPlain);
+  const double b = (2.92 - 0.13) / (25 - 2.25), a = 0.13 - b * 2.25, edge = std::sqrt(-a / b);
+  const auto areaOf = [&](double z0, double z1) {
+    constexpr int kSteps = 100000;
+    double sum = 0;  // r sqrt(1 + r'²) = sqrt(A + (B + B²) z²)
+    for (int i = 0; i < kSteps; ++i)
+      sum += std::sqrt(a + (b + b * b) * sqr(lerp((i + 0.5) / kSteps, z0, z1)));
+    return 2 * std::numbers::pi * sum * (z1 - z0) / kSteps;
+  };
+  const double lower = areaOf(-2, -edge), upper = areaOf(edge, 1.5);
+  EXPECT_NEAR(hyperboloid.area(0), lower + upper, 1e-5);
+  constexpr int kSamples = 1000;
+  int above = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const ShapeSample s = hyperboloid.sample(0, Point2f((static_cast<float>(i) + 0.5f) / kSamples, 0.3f));
+    EXPECT_NEAR(sqr(double{s.p.x}) + sqr(double{s.p.y}), a + b * sqr(double{s.p.z}), 1e-6);
+    EXPECT_NEAR(s.pdf, 1 / (lower + upper), 1e-5);
+    if (s.p.z > 0) ++above;
+  }
+  EXPECT_NEAR(above, kSamples * upper / (lower + upper), 1.5);
+}
+
+TEST(Hyperboloid, MayHaveNoSurfaceBetweenItsEnds) {
+  EXPECT_TRUE(Hyperboloid::isEmpty({.p1 = {1, 0, -1}, .p2 = {0, 0, 1}}));  // r² = (z² - 1) / 8
+  EXPECT_FALSE(Hyperboloid::isEmpty({.p1 = {1, 0, -1}, .p2 = {1, 1, 1}}));
 }
 
 TEST(Hyperboloid, WithItsDefaultsIsACone) {
@@ -163,6 +245,7 @@ TEST(Quadrics, RejectParametersThatLeaveNothing) {
   EXPECT_NE(message([] { Paraboloid({.radius = 1, .zmin = -2, .zmax = -1}, kPlain); }), "");
   EXPECT_NE(message([] { Hyperboloid({.p1 = {1, 0, 1}, .p2 = {0, 1, 1}}, kPlain); }), "");
   EXPECT_NE(message([] { Hyperboloid({.p1 = {0, 0, 0}, .p2 = {0, 0, 1}}, kPlain); }), "");
+  EXPECT_NE(message([] { Hyperboloid({.p1 = {1, 0, -1}, .p2 = {0, 0, 1}}, kPlain); }), "");
   EXPECT_EQ(message([] { Sphere({.radius = 1, .phimax = 720}, kPlain); }), "");  // clamped
 }
 
@@ -226,8 +309,19 @@ TEST(Quadrics, HaveDerivativesThatPredictNeighbouringHits) {
       };
       check(c->dpdu, u1->p, u0->p, "dpdu");
       check(c->dpdv, v1->p, v0->p, "dpdv");
-      check(c->dndu, u1->n, u0->n, "dndu");
-      check(c->dndv, v1->n, v0->n, "dndv");
+      // Those of the normal before orientation, as PBRT-v3 maps them: by the inverse transpose.
+      const auto objectNormal = [&](const SurfaceInteraction& si) {
+        const double sign = place.flipsNormal() ? -1 : 1;
+        return sign * normalize(place.worldFromObject.inverse().normal(Vec3d(si.n)));
+      };
+      const auto checkNormal = [&](Normal3f found, const SurfaceInteraction& high,
+                                   const SurfaceInteraction& low, const char* what) {
+        const Vec3d expected =
+            place.worldFromObject.normal((objectNormal(high) - objectNormal(low)) / (2 * h));
+        expectNear(Vec3d(found), expected, 5e-3 * (1 + length(expected)), what);
+      };
+      checkNormal(c->dndu, *u1, *u0, "dndu");
+      checkNormal(c->dndv, *v1, *v0, "dndv");
       // dp/du x dp/dv in the object, negated by ReverseOrientation XOR mirror, seen in the world where a
       // mirror turns cross products once more.
       const double side = dot(Vec3d(c->n), cross(Vec3d(c->dpdu), Vec3d(c->dpdv)));

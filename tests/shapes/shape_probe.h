@@ -126,20 +126,20 @@ inline std::vector<QuadricCase> quadricCases() {
   cases.push_back({"hyperboloid",
                    [](const ShapePlacement& p) {
                      return std::make_unique<Hyperboloid>(
-                         Hyperboloid::Params{.p1 = {1, 0, -1}, .p2 = {0.5f, 1, 1.5f}, .phimax = 290}, p);
+                         Hyperboloid::Params{.p1 = {1, 0.5f, -1}, .p2 = {-0.5f, 1, 1}, .phimax = 290}, p);
                    },
                    [](double u, double v) {
-                     const double x = 1 - 0.5 * v, y = v, a = u * radians(290.0);
+                     const double x = 1 - 1.5 * v, y = 0.5 + 0.5 * v, a = u * radians(290.0);
                      return Vec3d(x * std::cos(a) - y * std::sin(a), x * std::sin(a) + y * std::cos(a),
-                                  -1 + 2.5 * v);
+                                  -1 + 2 * v);
                    }});
   cases.push_back({"falling hyperboloid",  // p1 and p2 exchanged, so v runs downward
                    [](const ShapePlacement& p) {
                      return std::make_unique<Hyperboloid>(
-                         Hyperboloid::Params{.p1 = {0.75f, 0.5f, -1}, .p2 = {0.25f, 0, 0}, .phimax = 360}, p);
+                         Hyperboloid::Params{.p1 = {0.5f, 0.75f, -1}, .p2 = {0.5f, 0, 0}, .phimax = 360}, p);
                    },
                    [](double u, double v) {
-                     const double x = 0.25 + 0.5 * v, y = 0.5 * v, a = u * 2 * pi;
+                     const double x = 0.5, y = 0.75 * v, a = u * 2 * pi;
                      return Vec3d(x * std::cos(a) - y * std::sin(a), x * std::sin(a) + y * std::cos(a), -v);
                    }});
   return cases;

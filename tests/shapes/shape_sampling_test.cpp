@@ -158,6 +158,19 @@ void expectPdfIsThatOfSamples(const Shape& shape, Point3f reference, std::uint64
   }
 }
 
+/// Their normals are not those of the surface, by which densities go.
+TEST(ShapeSampling, PdfOfAHyperboloidWithItsWaistElsewhereIntegratesToSamples) {
+  const Transform placed = Transform::rotate(30, {1, 2, 3}) * Transform::scale(1, 1.5, 0.75);
+  for (const Hyperboloid::Params& params :
+       {Hyperboloid::Params{.p1 = {1, 0, -1}, .p2 = {1, 1, 1}},
+        Hyperboloid::Params{.p1 = {2, 0, -1}, .p2 = {1, 0.5f, 1}},
+        Hyperboloid::Params{.p1 = {2, 0, -2}, .p2 = {0.2f, 0.3f, 1.5f}, .phimax = 200}}) {
+    const Hyperboloid hyperboloid(params, {placed, false});
+    for (const Point3f& reference : references(hyperboloid))
+      expectPdfIsThatOfSamples(hyperboloid, reference, 40000);
+  }
+}
+
 TEST(ShapeSampling, PdfIntegratesToTheSameAsSamples) {
   forEachShape(1, [](const Shape& shape, const TriangleMesh::Params&) {
     const auto points = references(shape);

@@ -70,6 +70,19 @@ TEST(SurfaceInteraction, ShadingNormalsAndGeometricNormalsTakeOneSide) {
   EXPECT_EQ(si.shading.dndu, Normal3f(1, 0, 0));
 }
 
+TEST(SurfaceInteraction, DerivativesOfNormalsAreMappedAsNormalsAre) {
+  SurfaceInteraction si = onPlane();
+  si.dndu = si.shading.dndu = {1, 2, 3};
+  const auto scaled = transformInteraction(Transform::scale(0.2, 0.2, 0.2), si);
+  EXPECT_EQ(scaled.n, si.n);
+  EXPECT_LT(length(scaled.dndu - Normal3f(5, 10, 15)), 1e-5f) << "PBRT-v3: by 1/scale";
+  EXPECT_LT(length(scaled.shading.dndu - Normal3f(5, 10, 15)), 1e-5f);
+  const auto stretched = transformInteraction(Transform::scale(0.5, 1, 2), si);
+  EXPECT_LT(length(stretched.dndu - Normal3f(2, 2, 1.5f)), 1e-5f);
+  const auto turned = transformInteraction(Transform::rotate(90, {0, 0, 1}), si);
+  EXPECT_LT(length(turned.dndu - Normal3f(-2, 1, 3)), 1e-5f);
+}
+
 TEST(SurfaceInteraction, TransformedOneEqualsThatOfTheTransformedShape) {
   const Transform t =
       Transform::translate({1, 2, 3}) * Transform::rotate(50, {1, 1, 0}) * Transform::scale(0.5, 2, 1.25);
