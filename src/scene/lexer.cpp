@@ -133,12 +133,13 @@ std::size_t Lexer::readInts(int* out, std::size_t most) {
   });
 }
 
-std::string_view Lexer::lineAround(const char* p) const {
+std::string_view Lexer::lineAround(const char* p, std::ptrdiff_t most) const {
   const auto isEnd = [](char c) { return c == '\n' || c == '\r'; };
   const char* first = p;
   const char* last = p;
-  while (first != begin_ && !isEnd(first[-1])) --first;
-  while (last != end_ && !isEnd(*last)) ++last;
+  while (first != begin_ && !isEnd(first[-1]) && p - first <= most) --first;
+  while (last != end_ && !isEnd(*last) && last - p <= most) ++last;
+  if (p - first > most || last - p > most) return {};
   return {first, static_cast<std::size_t>(last - first)};
 }
 

@@ -41,8 +41,9 @@ class Lexer {
   /// a bracket, a number with a problem), which `next` then gives.
   std::size_t readFloats(float* out, std::size_t most);
   std::size_t readInts(int* out, std::size_t most);
-  /// The line of the text around `p`, without its end.
-  std::string_view lineAround(const char* p) const;
+  /// The line of the text around `p`, without its end; empty where it is longer than `most` bytes to one
+  /// side.
+  std::string_view lineAround(const char* p, std::ptrdiff_t most) const;
   /// Bytes of the text already turned into tokens.
   std::size_t offset() const { return static_cast<std::size_t>(p_ - begin_); }
 
@@ -62,10 +63,12 @@ class Lexer {
 
 /// Where a line with an odd number of quotes most likely lacks one.
 struct MissingQuote {
+  static constexpr std::ptrdiff_t kLongestLine =
+      4096;             ///< bytes; longer ones a program wrote, with its quotes
   std::size_t at = 0;   ///< bytes from the start of the line
   std::string message;  ///< what is missing there
 };
-/// Nothing where the quotes of the line pair up, or the line is too long to be written by hand.
+/// Nothing where the quotes of the line pair up.
 std::optional<MissingQuote> findMissingQuote(std::string_view line);
 
 /// The characters a quoted token stands for. Throws SceneError at a backslash that starts no escape of the

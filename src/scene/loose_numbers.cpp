@@ -26,26 +26,31 @@ std::string whatOfRest(std::string_view rest) {
 
 }  // namespace
 
+template <class What>
 void LooseNumbers::count(const SourceLocation& at, std::string_view manner, std::string_view word,
-                         const std::string& what) {
-  const auto key = std::make_pair(at.file.get(), std::string(manner));
+                         const What& what) {
+  auto key = std::make_pair(at.file.get(), std::string(manner));
   auto it = seen_.find(key);
   if (it == seen_.end()) {
     if (seen_.size() >= kMaxManners) return;
-    it = seen_.emplace(key, Seen{at, shown(word), what, 0}).first;
+    it = seen_.emplace(std::move(key), Seen{at, shown(word), what(), 0}).first;
   }
   ++it->second.count;
 }
 
 void LooseNumbers::add(const SourceLocation& at, std::string_view word, const NumberPrefix& number) {
   const std::string_view rest = word.substr(number.length);
-  if (!rest.empty()) count(at, rest.substr(0, kManner), word, whatOfRest(rest));
-  if (number.kind == NumberPrefix::Kind::Hexadecimal)
-    count(at, "0x", word, ", a hexadecimal number, read as PBRT-v3 reads it; write decimal numbers");
+  if (!rest.empty()) count(at, rest.substr(0, kManner), word, [&] { return whatOfRest(rest); });
+  if (number.kind != NumberPrefix::Kind::Hexadecimal) return;
+  count(at, "0x", word, [] {
+    return std::string(", a hexadecimal number, read as PBRT-v3 reads it; write decimal numbers");
+  });
 }
 
 void LooseNumbers::addFraction(const SourceLocation& at, std::string_view word) {
-  count(at, "fraction", word, " where a whole number is expected: the fraction is cut off, as in PBRT-v3");
+  count(at, "fraction", word, [] {
+    return std::string(" where a whole number is expected: the fraction is cut off, as in PBRT-v3");
+  });
 }
 
 void LooseNumbers::report() {

@@ -33,11 +33,12 @@ class LooseNumbers {
     std::string what;   ///< " where a number is expected: …"
     std::size_t count = 0;
   };
-  void count(const SourceLocation& at, std::string_view manner, std::string_view word,
-             const std::string& what);
+  /// `what()` is asked for the first of a manner only: there may be millions.
+  template <class What>
+  void count(const SourceLocation& at, std::string_view manner, std::string_view word, const What& what);
 
-  static constexpr std::size_t kMaxManners =
-      1000;  ///< of all files; more of a hostile text are not told apart
+  /// Of all files; more of a hostile text are not told apart.
+  static constexpr std::size_t kMaxManners = 1000;
   Diagnostics& diagnostics_;
   std::map<std::pair<const std::string*, std::string>, Seen> seen_;  ///< by file and manner
 };

@@ -8,8 +8,6 @@
 namespace pbrtmedia {
 namespace {
 
-constexpr std::size_t kLongestLine = 4096;  // bytes; what a program wrote has its quotes
-
 /// Where the second quote of a string belongs that runs into the next one: behind the name of a declaration,
 /// or behind its first word.
 std::size_t endOfMeant(std::string_view body) {
@@ -22,7 +20,6 @@ std::size_t endOfMeant(std::string_view body) {
 }  // namespace
 
 std::optional<MissingQuote> findMissingQuote(std::string_view line) {
-  if (line.size() > kLongestLine) return std::nullopt;
   Lexer lexer(line, 0, false);
   std::optional<MissingQuote> found;
   Token before;

@@ -127,7 +127,7 @@ std::optional<SceneError> TokenStream::missingQuote(const Token& token) const {
   const auto in =
       std::find_if(open_.begin(), open_.end(), [&](const Open& o) { return o.origin == token.source; });
   if (in == open_.end() || token.kind == Token::Kind::End) return std::nullopt;
-  const std::string_view line = in->lexer.lineAround(token.raw.data());
+  const std::string_view line = in->lexer.lineAround(token.raw.data(), MissingQuote::kLongestLine);
   const auto missing = findMissingQuote(line);
   if (!missing) return std::nullopt;
   SourceLocation at = locate(token);

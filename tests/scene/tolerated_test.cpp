@@ -266,6 +266,11 @@ TEST(MissingQuote, PairsAreNotSuspected) {
   EXPECT_FALSE(findMissingQuote(R"(Shape"sphere""float radius"2 # it's "one)"));
   EXPECT_FALSE(findMissingQuote(R"("a \" b" "c")"));
   EXPECT_FALSE(findMissingQuote(""));
+  // A line of many megabytes is not searched again and again.
+  std::string line = "Film \"image\" ";
+  for (int i = 0; i < 200000; ++i)
+    line += "\"foo x" + std::to_string(i % 4000) + "\" 1 " + (i % 4000 == 3999 ? "Film \"image\" " : "");
+  EXPECT_FALSE(parse(line + "\nWorldBegin WorldEnd").diagnostics.hasErrors());
   EXPECT_NE(parseWorld("Shpae \"sphere\"").messages().find("unknown directive Shpae"), std::string::npos);
 }
 
