@@ -33,7 +33,7 @@ void expectMean(const Estimator& estimator, const CanonicalLine& line, double si
   Rng rng(kSeed);
   for (int i = 0; i < 1500; ++i) values.add(runEstimator(estimator, line, Channels<1>{sigma}, rng).value[0]);
   const double depth = sigma * line.integral(), truth = transmittanceOf(estimator.law, depth);
-  const double rounding = depth * 0x1p-23 + 1e-12;  // of densities to float
+  const double rounding = depth * 0x1p-45 + 1e-12;  // of sums of doubles
   EXPECT_LE(std::abs(values.mean() - truth), kMaxAbsZ * values.standardError() + rounding)
       << Estimator::kName << ", " << what << ": " << zTest(values, truth, kSeed);
 }

@@ -70,9 +70,9 @@ RunningStats run(const UnbiasedRayMarching& estimator, const CanonicalLine& line
   return values;
 }
 
-/// Within kMaxAbsZ standard errors and what densities lose as float.
+/// Within kMaxAbsZ standard errors and what sums of doubles lose.
 void expectMean(const RunningStats& values, double tau, const std::string& what) {
-  const double truth = std::exp(-tau), rounding = tau * truth * 0x1p-23 + 1e-15;
+  const double truth = std::exp(-tau), rounding = (1 + tau) * truth * 0x1p-42;
   EXPECT_LE(std::abs(values.mean() - truth), kMaxAbsZ * values.standardError() + rounding)
       << what << ": " << test::zTest(values, truth, kSeed);
 }
@@ -138,7 +138,7 @@ TEST(UnbiasedRayMarchingVariants, EveryPartOfTheMethodPays) {
           const CanonicalLine line(function, {.control = control});
           double lookups = 0;
           const double variance = run(estimator, line, sigma, 4000, &lookups).variance();
-          // Below the rounding of densities to float nothing is measured.
+          // Below this variances that mean nothing would count.
           const double floor = std::exp(-2 * sigma * line.integral()) * 1e-13;
           sum += std::log(std::max(variance, floor) * lookups);
           ++cells;
