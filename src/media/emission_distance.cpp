@@ -7,9 +7,12 @@
 namespace pbrtmedia {
 namespace {
 
-/// The integral of exp(-sigma x) over [0, length]; a length may be infinite where sigma is not 0.
-double attenuatedLength(double sigma, double length) {
-  return sigma > 0 ? -std::expm1(-sigma * length) / sigma : length;
+/// What an interval absorbs of light that crosses it; a length may be infinite where sigma is not 0.
+EmissionSampler::Channels absorbedOn(const EmissionSampler::Channels& sigmaT, double length) {
+  const auto absorbed = [&](double sigma) { return sigma > 0 ? -std::expm1(-sigma * length) : 0.0; };
+  const double first = absorbed(sigmaT[0]);
+  return {first, sigmaT[1] == sigmaT[0] ? first : absorbed(sigmaT[1]),
+          sigmaT[2] == sigmaT[0] ? first : absorbed(sigmaT[2])};
 }
 
 /// Inverts it: x in [0, length] with density proportional to exp(-sigma x).
@@ -26,13 +29,14 @@ void EmissionSampler::add(double sEnter, double sExit, const Channels& emission,
                           double tag) {
   if (!(sExit > sEnter)) return;
   const double length = sExit - sEnter;
-  const Channels depthBefore = depth_;
+  const Channels throughBefore = through_, absorbed = absorbedOn(sigmaT, length);
   Channels weights{};
   for (std::size_t c = 0; c < 3; ++c) {
+    // The integral of exp(-sigma x) over the interval.
     if (emission[c] > 0) {
-      weights[c] = emission[c] * std::exp(-depth_[c]) * attenuatedLength(sigmaT[c], length);
+      weights[c] = emission[c] * through_[c] * (sigmaT[c] > 0 ? absorbed[c] / sigmaT[c] : length);
     }
-    if (sigmaT[c] > 0) depth_[c] += sigmaT[c] * length;
+    through_[c] *= 1 - absorbed[c];
   }
   const double attenuated = sum(weights), emitted = share_ > 0 ? sum(emission) * length : 0;
   const double weight = defensive_ ? emitted : attenuated, before = defensive_ ? totalEmitted_ : total_;
@@ -47,14 +51,14 @@ void EmissionSampler::add(double sEnter, double sExit, const Channels& emission,
   tag_ = tag;
   emission_ = emission;
   sigmaT_ = sigmaT;
-  depthBefore_ = depthBefore;
+  throughBefore_ = throughBefore;
   weight_ = weights;
 }
 
 double EmissionSampler::densityAt(double offset) const {
   double attenuated = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    if (emission_[c] > 0) attenuated += emission_[c] * std::exp(-depthBefore_[c] - sigmaT_[c] * offset);
+    if (emission_[c] > 0) attenuated += emission_[c] * throughBefore_[c] * std::exp(-sigmaT_[c] * offset);
   }
   double density = total_ > 0 ? (1 - share_) * attenuated / total_ : 0;
   if (share_ > 0 && totalEmitted_ > 0) density += share_ * sum(emission_) / totalEmitted_;

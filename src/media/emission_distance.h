@@ -43,11 +43,11 @@ class EmissionSampler {
   double share_;
   bool defensive_;
   double total_ = 0, totalEmitted_ = 0;
-  Channels depth_{};
+  Channels through_{1, 1, 1};  ///< transmittance from the start to the next interval
   // The interval chosen so far.
   bool hasChosen_ = false;
   double sEnter_ = 0, sExit_ = 0, tag_ = 0;
-  Channels emission_{}, sigmaT_{}, depthBefore_{}, weight_{};
+  Channels emission_{}, sigmaT_{}, throughBefore_{}, weight_{};
 };
 
 }  // namespace pbrtmedia
