@@ -16,6 +16,7 @@
 #include "construct/textures.h"
 #include "construct/world_builder.h"
 #include "integrators/endless_medium.h"
+#include "integrators/media_faults.h"
 #include "media/homogeneous.h"
 
 namespace pbrtmedia {
@@ -52,15 +53,31 @@ std::optional<const Medium*> cameraMediumOf(const SceneDescription& scene, const
   return world.medium(scene.cameraMedium.index);
 }
 
+/// Boundaries that are not what they were meant to be, and media that nobody sees.
+void warnOfMedia(const Scene& scene, const CameraMedium& camera, const WorldBuilder& world,
+                 Diagnostics& diagnostics) {
+  for (const FaultyBoundary& faulty : findFaultyBoundaries(scene, camera)) {
+    diagnostics.warning(faulty.boundary->location, faulty.message);
+  }
+  world.warnOfUnseenMedia(camera, findUnreachedMedia(scene, camera), diagnostics);
+}
+
 /// Light from infinitely far never gets through a medium without end. That is right, but hardly meant.
-void warnOfEndlessMedium(const SceneDescription& scene, const Medium& medium, Diagnostics& diagnostics) {
+void warnOfEndlessMedium(const SceneDescription& scene, const Scene& built, const Medium& medium,
+                         Diagnostics& diagnostics) {
+  std::string advice = "enclose the medium in a surface of material \"none\"";
+  for (const auto& group : built.primitiveGroups()) {
+    for (const Primitive* p : group) {
+      if (p->media.inside != &medium || !built.boundaries().faultOf(*p)) continue;
+      advice = "its boundary at " + p->location.toString() + " does not enclose it";
+    }
+  }
   for (const LightDescription& light : scene.lights) {
     if (light.type != "distant" && light.type != "infinite" && light.type != "exinfinite") continue;
-    diagnostics.warning(light.location,
-                        "LightSource \"" + light.type +
-                            "\": its light comes from infinitely far through medium \"" + medium.name() +
-                            "\", which has no end, so none of it arrives; enclose the medium in "
-                            "a surface of material \"none\"");
+    diagnostics.warning(light.location, "LightSource \"" + light.type +
+                                            "\": its light comes from infinitely far through medium \"" +
+                                            medium.name() + "\", which has no end, so none of it arrives; " +
+                                            advice);
   }
 }
 
@@ -79,7 +96,7 @@ CameraMedium findCameraMedium(const SceneDescription& scene, const Construction&
     diagnostics.warning(isGiven ? scene.cameraMedium.location : scene.camera.location, warning);
   }
   if (const Medium* endless = findEndlessMedium(*made.scene, medium, ray.o, ray.time)) {
-    warnOfEndlessMedium(scene, *endless, diagnostics);
+    warnOfEndlessMedium(scene, *made.scene, *endless, diagnostics);
   }
   return medium;
 }
@@ -133,7 +150,10 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
     checkPixelBounds(scene, *integrator, *made.film);
     made.scene = world.build(integrator->rendersMedia);
     CameraMedium cameraMedium;
-    if (integrator->rendersMedia) cameraMedium = findCameraMedium(scene, made, world, diagnostics);
+    if (integrator->rendersMedia) {
+      cameraMedium = findCameraMedium(scene, made, world, diagnostics);
+      warnOfMedia(*made.scene, cameraMedium, world, diagnostics);
+    }
     mediaEmit = made.scene->hasEmissiveMedia() || MediaTracker::emits(cameraMedium.state());
     made.integrator = integrator->make(*made.scene, std::move(cameraMedium));
     made.pixelBounds = integrator->pixelBounds;

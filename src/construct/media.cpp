@@ -28,10 +28,6 @@ std::optional<MediumPlan> readMedium(MediumDescription& medium, bool isUsed, Dia
       findPlugin<ReadMedium>(kMedia, medium, context, "it is vacuum, as in PBRT-v3", diagnostics);
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(medium, diagnostics, context);
-  if (medium.ctm->isAnimated()) {
-    diagnostics.warning(medium.location,
-                        context + ": media do not move; the transformation of the start time is used");
-  }
   std::optional<MediumPlan> plan = plugin->read({in, medium, isUsed, building});
   if (!plan) return std::nullopt;  // who stopped early has not asked for all that there is
   in.reportUnused();

@@ -24,6 +24,7 @@ WorldBuilder::WorldBuilder(SceneDescription& scene, Textures& textures, Material
 void WorldBuilder::read(bool quick) {
   markUsedObjects();
   markUsedMedia();
+  warnOfMediaThatStay();
   for (std::size_t i = 0; i < scene_.media.size(); ++i) {
     Diagnostics messages;
     messages.strict = diagnostics_.strict;
@@ -162,7 +163,9 @@ std::optional<Primitive> WorldBuilder::buildPrimitive(std::size_t index, SceneBu
   primitive.shape = builder.own(std::move(made));
   primitive.material =
       builtAt(shape.location, contextOf(shape), [&] { return materials_.build(read.material); });
-  primitive.media = {mediumOf(shape.media->inside), mediumOf(shape.media->outside)};
+  primitive.media = {mediumOf(shape.media->inside), mediumOf(shape.media->outside),
+                     movesWith(shape, shape.media->inside), movesWith(shape, shape.media->outside)};
+  primitive.location = shape.location;
   primitive.alpha = textures_.floatTexture(read.plan->alpha);
   primitive.shadowAlpha = textures_.floatTexture(read.plan->shadowAlpha);
   addAreaLights(shape, primitive, builder);

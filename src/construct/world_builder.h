@@ -12,6 +12,7 @@
 #include "construct/media.h"
 #include "construct/shapes.h"
 #include "construct/textures.h"
+#include "integrators/camera_medium.h"
 #include "integrators/scene_builder.h"
 #include "scene/description.h"
 
@@ -34,6 +35,10 @@ class WorldBuilder {
     return index == kNone ? nullptr : media_[static_cast<std::size_t>(index)];
   }
   bool usesMedia() const { return usesMedia_; }
+  /// Warns of media that no camera ray gets to see. After `build` with media. `unreached`: whose densities
+  /// lie outside of all their boundaries.
+  void warnOfUnseenMedia(const CameraMedium& camera, const std::vector<const Medium*>& unreached,
+                         Diagnostics& diagnostics) const;
   std::vector<std::string> report() const { return report_; }
 
  private:
@@ -54,6 +59,9 @@ class WorldBuilder {
   bool isUsed(const ShapeDescription& shape) const {
     return shape.object == kNone || objectUsed_[static_cast<std::size_t>(shape.object)];
   }
+  void warnOfMediaThatStay();
+  bool isOpaque(const ShapeDescription& shape) const;
+  bool movesWith(const ShapeDescription& shape, const MediumUse& use) const;
   void buildMedia(SceneBuilder& builder);
   /// Nothing for a shape whose file turns out to be broken.
   std::optional<Primitive> buildPrimitive(std::size_t shape, SceneBuilder& builder);

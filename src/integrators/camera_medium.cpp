@@ -12,7 +12,9 @@ namespace {
 /// What the boundaries along one line say about its start.
 struct Finding {
   bool saysBoundary = false;  ///< some boundary names the medium on its near side
+  bool isWeak = false;        ///< some of them have faults: holes, or normals that face inward
   MediumState state;
+  bool saysSomething() const { return saysBoundary || state.enteredCount() > 0; }
 };
 
 /// Adds as many of each medium to the start as the ray later leaves without having entered it.
@@ -41,8 +43,10 @@ Finding probe(const Scene& scene, Point3f origin, float time, Vector3f direction
   while (const auto hit = walk.next(queries)) {
     const MediumInterface& media = hit->primitive->media;
     if (media.same()) continue;
+    finding.isWeak = finding.isWeak || scene.boundaries().faultOf(*hit->primitive);
     const bool outward = dot(ray.d, scene.surface(*hit, ray).n) > 0;
-    const PlacedMedium inside{media.inside, hit->placement}, outside{media.outside, hit->outsidePlacement};
+    const PlacedMedium inside{media.inside, hit->insidePlacement},
+        outside{media.outside, hit->outsidePlacement};
     const PlacedMedium near = outward ? inside : outside, far = outward ? outside : inside;
     if (isPresent(near.medium)) presence.leave(near, finding.state);
     if (isPresent(far.medium)) presence.enter(far);
@@ -66,9 +70,16 @@ Verdict askGeometry(const Scene& scene, Point3f origin, float time) {
   std::vector<Finding> findings;
   findings.reserve(kProbeDirections.size());
   for (const Vector3f d : kProbeDirections) findings.push_back(probe(scene, origin, time, d));
-  const auto saysSomething = [](const Finding& f) { return f.saysBoundary || f.state.enteredCount() > 0; };
-  const auto says = static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), saysSomething));
-  // A direction that meets no boundary is no evidence: an open surface may name the medium in front of it.
+  const auto saysSomething = [](const Finding& f) { return f.saysSomething(); };
+  auto says = static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), saysSomething));
+  if (says < findings.size()) {
+    // The camera is not surrounded: boundaries with faults are no evidence of what is around it.
+    for (Finding& f : findings) {
+      if (f.isWeak) f = {};
+    }
+    says = static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), saysSomething));
+  }
+  // A direction that meets no boundary is no evidence.
   Verdict verdict;
   for (const Finding& candidate : findings) {
     if (says > 0 && !saysSomething(candidate)) continue;

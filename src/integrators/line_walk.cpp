@@ -11,8 +11,10 @@ namespace {
 /// Crossings are remembered over this share of the coordinates: a line through a common edge of two triangles
 /// may hit both, some roundings apart, and the accelerator must see that it is one crossing.
 constexpr float kRemembered = 1e-4f;
-/// Hits closer than this share of the coordinates coincide: some roundings of t.
+/// Surfaces closer than this share of the coordinates coincide: some roundings of t.
 constexpr float kCoincident = 0x1p-20f;
+/// Where a ray grazes them, their hits may be farther apart along it: by 1 / cosine, at most this factor.
+constexpr float kMostGrazing = 0x1p10f;
 /// A surface closer to the camera than this share of the coordinates holds it: rounding of both.
 constexpr double kHoldsOrigin = 0x1p-22;
 /// Hits farther along the ray than this share are not looked at closely: only a saving of time.
@@ -91,15 +93,70 @@ bool LineWalk::fetch(std::uint64_t& queries) {
   return false;
 }
 
+/// Whether two hits in order are less apart than rounding, measured across their surfaces.
+bool LineWalk::coincide(const SceneHit& a, const SceneHit& b) const {
+  const float apart = b.t() - a.t(), rounding = kCoincident * (a.t() + maxComponent(abs(ray_.o)));
+  if (apart <= rounding) return true;
+  if (apart > kMostGrazing * rounding) return false;
+  const float steepness =
+      std::max(absDot(scene_.surface(a, ray_).n, ray_.d), absDot(scene_.surface(b, ray_).n, ray_.d));
+  return apart * steepness <= rounding;
+}
+
+namespace {
+
+/// Largest coordinate that had a part in the position of a hit.
+float extentOf(const SceneHit& hit, Point3f p, float time) {
+  float extent = maxComponent(abs(p));
+  if (hit.placement) {
+    const Vec3d origin = hit.placement->worldFromObject(time).point(Vec3d{});
+    extent = std::max(extent, static_cast<float>(maxComponent(abs(origin))));
+  }
+  return extent;
+}
+
+}  // namespace
+
+CoincidentSurfaces LineWalk::coincidentWith(const SceneHit& hit, const SurfaceInteraction& si,
+                                            std::uint64_t& queries) {
+  CoincidentSurfaces found;
+  const auto isOther = [&](const SceneHit& other) {
+    const bool isOwn =
+        other.hit.id.instance == hit.hit.id.instance && other.hit.id.geometry == hit.hit.id.geometry;
+    return !isOwn && !other.primitive->media.same();
+  };
+  // What `next` passed over coincides.
+  for (const SceneHit& other : ahead_) {
+    if (!isOther(other)) continue;
+    const SurfaceInteraction at = scene_.surface(other, ray_);
+    found.add({other, at.n, at.p});
+  }
+  ended_ = true;
+  if (!scene_.mayTouchBoundary(si.p, hit)) return found;
+  // Of what lies beyond, t alone says little where the ray comes from far away: points know more.
+  const float steepness = std::max(absDot(si.n, ray_.d), 1 / kMostGrazing);
+  const float reach = hit.t() + kCoincident * (hit.t() + maxComponent(abs(ray_.o))) / steepness;
+  Ray near = ray_;
+  near.tMax = std::min(ray_.tMax, std::nextafter(reach, kInfinity));
+  while (const std::optional<SceneHit> other = scene_.closest(near, tMin_, exclusions_, queries)) {
+    advancePast(other->hit);
+    if (!isOther(*other)) continue;
+    const SurfaceInteraction at = scene_.surface(*other, ray_);
+    const Vector3f apart = at.p - si.p;
+    const float rounding =
+        kCoincident * std::max(extentOf(hit, si.p, ray_.time), extentOf(*other, at.p, ray_.time));
+    if (std::max(absDot(apart, at.n), absDot(apart, si.n)) <= rounding) found.add({*other, at.n, at.p});
+  }
+  return found;
+}
+
 std::size_t LineWalk::lookAhead(std::uint64_t& queries) {
   if (ahead_.empty() && !fetch(queries)) return 0;
-  const float first = ahead_.front().t();
-  const float last = first + kCoincident * (first + maxComponent(abs(ray_.o)));
   for (std::size_t i = 0;; ++i) {
     if (ahead_[i].primitive->material) return i + 1;
     // Looking one hit ahead costs nothing: whoever passes this boundary asks for the next hit anyway.
     if (i + 1 == ahead_.size() && !fetch(queries)) return i + 1;
-    if (ahead_[i + 1].t() > last) return i + 1;
+    if (!coincide(ahead_.front(), ahead_[i + 1])) return i + 1;
   }
 }
 

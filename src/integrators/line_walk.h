@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "integrators/coincident_surfaces.h"
 #include "integrators/scene.h"
 
 namespace pbrtmedia {
@@ -67,7 +68,13 @@ class LineWalk {
     return next(queries, [](const SceneHit&) { return true; });
   }
 
+  /// The surfaces with two different media that coincide with `hit` at `si`, which has a material and was
+  /// delivered last. The walk ends with this.
+  CoincidentSurfaces coincidentWith(const SceneHit& hit, const SurfaceInteraction& si,
+                                    std::uint64_t& queries);
+
  private:
+  bool coincide(const SceneHit& a, const SceneHit& b) const;
   /// Fills `ahead_` and returns how many of its first hits coincide; a surface with material ends such a
   /// group.
   std::size_t lookAhead(std::uint64_t& queries);

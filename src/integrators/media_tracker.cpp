@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/media_tracker.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
-
-#include "integrators/boundary_closure.h"
 
 namespace pbrtmedia {
 namespace {
@@ -32,7 +32,7 @@ struct Sides {
 
 Sides sidesOf(const SceneHit& hit, bool towardOutside) {
   const MediumInterface& media = hit.primitive->media;
-  const PlacedMedium inside{media.inside, media.inside ? hit.placement : nullptr};
+  const PlacedMedium inside{media.inside, media.inside ? hit.insidePlacement : nullptr};
   const PlacedMedium outside{media.outside, media.outside ? hit.outsidePlacement : nullptr};
   Sides s{towardOutside ? inside : outside, towardOutside ? outside : inside, false, false};
   s.nearIsPresent = isPresent(s.near.medium);
@@ -45,11 +45,12 @@ bool contradicts(const MediumState& state, const Sides& s) {
   return s.nearNamesBoundary() && !(state.boundary() == s.near);
 }
 
-void noteMismatch(const MediumState& state, const Sides& sides, Point3f p, RenderCounters& counters,
-                  MismatchLog* log) {
+void noteMismatch(const MediumState& state, const Sides& sides, const Primitive& boundary, Point3f p,
+                  RenderCounters& counters, MismatchLog* log) {
   ++counters.mediumMismatches;
   if (!log || log->entries.size() >= log->capacity) return;
-  log->entries.push_back({log->pixel, log->sample, p, state.describe(), nameOf(sides.near.medium)});
+  log->entries.push_back(
+      {log->pixel, log->sample, p, state.describe(), nameOf(sides.near.medium), &boundary});
 }
 
 Segment segmentOf(const PlacedMedium& m, const Ray& ray, double tMin, double tMax) {
@@ -61,44 +62,90 @@ Segment segmentOf(const PlacedMedium& m, const Ray& ray, double tMin, double tMa
 
 std::string MediumMismatch::toString() const {
   std::ostringstream out;
-  out << "pixel " << pixel.x << ' ' << pixel.y << ", sample " << sample << ": a boundary at " << p << " has "
-      << named << " on the side of a ray that is in " << believed;
+  out << "pixel " << pixel.x << ' ' << pixel.y << ", sample " << sample << ": a boundary ";
+  if (boundary && boundary->location.file) out << '(' << boundary->location.toString() << ") ";
+  out << "at " << p << " has " << named << " on the side of a ray that is in " << believed;
   return out.str();
 }
 
 MediaTracker::MediaTracker(const Scene& scene, const Medium* cameraMedium)
-    : cameraMedium_(cameraMedium), confined_(findConfinedMedia(scene)) {
-  confined_.erase(cameraMedium);
+    : boundaries_(scene.boundaries()), cameraMedium_(cameraMedium) {}
+
+bool MediaTracker::fits(const MediumState& state, const Meeting& at) {
+  return at.hit->primitive->media.same() || !contradicts(state, sidesOf(*at.hit, at.towardOutside));
 }
 
-void MediaTracker::cross(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si, Vector3f d,
-                         RenderCounters& counters, MismatchLog* log) const {
-  if (hit.primitive->media.same()) return;
-  const Sides s = sidesOf(hit, dot(d, si.n) > 0);
-  if (contradicts(state, s)) noteMismatch(state, s, si.p, counters, log);
+void MediaTracker::pass(MediumState& state, const Meeting& at, RenderCounters& counters, MismatchLog* log) {
+  if (at.hit->primitive->media.same()) return;
+  const Sides s = sidesOf(*at.hit, at.towardOutside);
+  if (contradicts(state, s)) noteMismatch(state, s, *at.hit->primitive, at.p, counters, log);
   if (s.nearIsPresent) state.leave(s.near);
   if (s.farIsPresent) state.enter(s.far);
   if (s.farNamesBoundary()) state.setBoundary(s.far);
 }
 
+void MediaTracker::cross(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si, Vector3f d,
+                         RenderCounters& counters, MismatchLog* log) const {
+  pass(state, {&hit, si.p, dot(d, si.n) > 0}, counters, log);
+}
+
 bool MediaTracker::fits(const MediumState& state, const SceneHit& hit, const SurfaceInteraction& si,
                         Vector3f d) const {
-  return hit.primitive->media.same() || !contradicts(state, sidesOf(hit, dot(d, si.n) > 0));
+  return fits(state, {&hit, si.p, dot(d, si.n) > 0});
+}
+
+/// Whether a path along `d` has `near` as its boundary medium behind coincident surfaces that fit.
+bool MediaTracker::reaches(MediumState state, PlacedMedium near, const CoincidentSurfaces& coincident,
+                           Vector3f d) {
+  RenderCounters uncounted;
+  std::array<bool, CoincidentSurfaces::kCapacity> passed{};
+  for (bool goesOn = true; goesOn && !(state.boundary() == near);) {
+    goesOn = false;
+    std::size_t i = 0;
+    for (const CoincidentSurfaces::Entry& e : coincident) {
+      const Meeting at{&e.hit, e.p, dot(d, e.n) > 0};
+      bool& isPassed = passed[i++];
+      if (isPassed || !fits(state, at)) continue;
+      pass(state, at, uncounted, nullptr);
+      isPassed = goesOn = true;
+    }
+  }
+  return state.boundary() == near;
 }
 
 void MediaTracker::leaveSurface(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si,
-                                Vector3f wi, RenderCounters& counters, MismatchLog* log) const {
-  if (hit.primitive->media.same()) return;
-  const bool goesOutside = dot(wi, si.n) > 0, cameFromOutside = dot(si.wo, si.n) > 0;
-  if (goesOutside != cameFromOutside) return cross(state, hit, si, wi, counters, log);
-  const Sides s = sidesOf(hit, !goesOutside);
-  if (!s.nearNamesBoundary() || state.boundary() == s.near) return;
-  noteMismatch(state, s, si.p, counters, log);
-  state.setBoundary(s.near);
+                                const CoincidentSurfaces& coincident, Vector3f wi, RenderCounters& counters,
+                                MismatchLog* log) const {
+  const bool isPlain = hit.primitive->media.same();
+  if (isPlain && coincident.isEmpty()) return;
+  const auto crosses = [&](Normal3f n) { return (dot(wi, n) > 0) != (dot(si.wo, n) > 0); };
+  const auto meeting = [&](const SceneHit& at, Point3f p, Normal3f n) {
+    return Meeting{&at, p, dot(wi, n) > 0};
+  };
+  std::array<Meeting, CoincidentSurfaces::kCapacity + 1> ahead;
+  std::size_t count = 0;
+  if (crosses(si.n)) {
+    ahead[count++] = meeting(hit, si.p, si.n);
+  } else if (!isPlain) {
+    const Sides s = sidesOf(hit, !(dot(wi, si.n) > 0));
+    if (s.nearNamesBoundary() && !reaches(state, s.near, coincident, -si.wo)) {
+      noteMismatch(state, s, *hit.primitive, si.p, counters, log);
+      state.setBoundary(s.near);
+    }
+  }
+  for (const CoincidentSurfaces::Entry& e : coincident) {
+    if (crosses(e.n)) ahead[count++] = meeting(e.hit, e.p, e.n);
+  }
+  for (auto *left = ahead.data(), *end = left + count; left != end; ++left) {
+    auto* next = std::find_if(left, end, [&](const Meeting& m) { return fits(state, m); });
+    if (next == end) next = left;
+    pass(state, *next, counters, log);
+    *next = *left;
+  }
 }
 
 void MediaTracker::escape(MediumState& state, RenderCounters& counters) const {
-  if (state.isVacuum() || confined_.empty()) return;
+  if (state.isVacuum() || boundaries_.confinesNothing()) return;
   bool repaired = false;
   if (isConfined(state.boundary().medium)) {
     state.setBoundary(isPresent(cameraMedium_) ? PlacedMedium{} : PlacedMedium{cameraMedium_, nullptr});

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <string>
-#include <unordered_set>
 #include <vector>
 
+#include "integrators/coincident_surfaces.h"
 #include "integrators/medium_state.h"
 
 namespace pbrtmedia {
@@ -15,6 +15,7 @@ struct MediumMismatch {
   std::int64_t sample = 0;
   Point3f p;  ///< world
   std::string believed, named;
+  const Primitive* boundary = nullptr;  ///< of the scene
   /// pixel 3 4, sample 0: a boundary at (...) has "fog" on the side of a ray that is in "smoke"
   std::string toString() const;
 };
@@ -56,9 +57,12 @@ class MediaTracker {
              RenderCounters& counters, MismatchLog* log) const;
   /// Whether crossing the surface along `d` would not contradict the state.
   bool fits(const MediumState& state, const SceneHit& hit, const SurfaceInteraction& si, Vector3f d) const;
-  /// State of a ray that starts on the surface along `wi`, when a path in `state` came in from si.wo.
-  void leaveSurface(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si, Vector3f wi,
-                    RenderCounters& counters, MismatchLog* log) const;
+  /// State of a ray that starts on the surface along `wi`, when a path in `state` came in from si.wo. Of the
+  /// surface and of those that coincide with it, the path crosses those that it leaves on the other side than
+  /// it came from, in an order in which each fits the media so far, if there is one.
+  void leaveSurface(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si,
+                    const CoincidentSurfaces& coincident, Vector3f wi, RenderCounters& counters,
+                    MismatchLog* log) const;
   /// To be called when a ray has no further hit: media that closed boundaries confine cannot be there.
   /// Removes them and counts a boundary repair.
   void escape(MediumState& state, RenderCounters& counters) const;
@@ -96,15 +100,27 @@ class MediaTracker {
                               RenderCounters& counters);
 
   /// Whether the medium can be only within closed boundaries.
-  bool isConfined(const Medium* medium) const { return confined_.count(medium) > 0; }
+  bool isConfined(const Medium* medium) const {
+    return medium != cameraMedium_ && boundaries_.isConfined(medium);
+  }
   /// A collision closer to the end of its segment than this share of the largest coordinate is looked at by
   /// `scatterPoint`; farther away only a boundary met at less than about 1e-3 radians could be within
   /// rounding.
   static constexpr double kNearBoundary = 1e-3;
 
  private:
+  /// A surface and the side that it is met from.
+  struct Meeting {
+    const SceneHit* hit;
+    Point3f p;
+    bool towardOutside;
+  };
+  static bool fits(const MediumState& state, const Meeting& at);
+  static void pass(MediumState& state, const Meeting& at, RenderCounters& counters, MismatchLog* log);
+  static bool reaches(MediumState state, PlacedMedium near, const CoincidentSurfaces& coincident, Vector3f d);
+
+  const BoundaryClosure& boundaries_;
   const Medium* cameraMedium_;
-  std::unordered_set<const Medium*> confined_;
 };
 
 }  // namespace pbrtmedia

@@ -86,17 +86,20 @@ std::optional<Span<double>> MediumLight::span(Point3f reference, Vector3f wi, fl
 
 std::vector<MediumEmitter> mediumEmittersOf(std::span<const Primitive* const> primitives, bool inObject) {
   std::vector<MediumEmitter> emitters;
-  const auto emitterOf = [&](const Medium* medium) -> MediumEmitter* {
+  const auto emitterOf = [&](const Medium* medium, bool moves) -> MediumEmitter* {
     if (!medium || !medium->isEmissive()) return nullptr;
     for (MediumEmitter& e : emitters) {
-      if (e.medium == medium) return &e;
+      if (e.medium == medium && e.moves == moves) return &e;
     }
-    return &emitters.emplace_back(MediumEmitter{medium, {}});
+    return &emitters.emplace_back(MediumEmitter{medium, {}, moves});
   };
   for (const Primitive* p : primitives) {
-    if (p->media.same()) continue;
-    if (MediumEmitter* const inside = emitterOf(p->media.inside)) inside->boundary.expand(p->shape->bounds());
-    if (!inObject) emitterOf(p->media.outside);
+    const MediumInterface& media = p->media;
+    if (media.same()) continue;
+    if (MediumEmitter* const inside = emitterOf(media.inside, inObject && media.insideMoves)) {
+      inside->boundary.expand(p->shape->bounds());
+    }
+    if (!inObject || !media.outsideMoves) emitterOf(media.outside, false);
   }
   return emitters;
 }

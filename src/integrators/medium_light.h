@@ -57,9 +57,10 @@ class MediumLight final : public Light {
 struct MediumEmitter {
   const Medium* medium;
   Bounds3f boundary;
+  bool moves = true;  ///< with the placements of the primitives
 };
-/// The emissive media of primitives that are placed together. Of an object only those that it has inside
-/// somewhere: others are around it.
+/// The emissive media of primitives that are placed together. Of those that move with an object only the ones
+/// that it has inside somewhere: others are around it.
 std::vector<MediumEmitter> mediumEmittersOf(std::span<const Primitive* const> primitives, bool inObject);
 
 /// The lights that the media of a scene are: one for each emissive medium and placement, if its extent is

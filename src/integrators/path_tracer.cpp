@@ -60,9 +60,9 @@ Rgb PathTracer::finish(Event event) {
 PathTracer::Event PathTracer::travel() {
   if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters() && !setup_.mediaEmit) return Event::End;
   const bool isFromCamera = bounces_ == 0;
-  Travel way{isFromCamera ? LineWalk::fromCamera(setup_.scene, ray_)
-                          : LineWalk(setup_.scene, ray_, Exclusions(rayStart_)),
-             startPlane_};
+  Travel way{
+      isFromCamera ? LineWalk::fromCamera(setup_.scene, ray_) : LineWalk(setup_.scene, ray_, rayStart_),
+      startPlane_};
   return travelOn(way);
 }
 
@@ -99,7 +99,10 @@ PathTracer::Event PathTracer::travelOn(Travel& way) {
       if (hit->isEmitter()) collectEmission(way, *hit, si);
       if (scatters) {
         if (seesOnlyEmission()) return Event::End;
-        surface_ = {*hit, si};
+        surface_ = {*hit, si, {}};
+        if (setup_.media && setup_.scene.hasMediumBoundaries()) {
+          surface_.coincident = walk.coincidentWith(*hit, si, counters_.rays);
+        }
         return Event::Surface;
       }
       if (setup_.media) {
@@ -217,9 +220,11 @@ bool PathTracer::scatterOnSurface() {
   }
   ++bounces_;
   if (setup_.media) {
-    setup_.media->leaveSurface(state_, surface_.hit, si, sample.wi, counters_, context_.mismatches);
+    setup_.media->leaveSurface(state_, surface_.hit, si, surface_.coincident, sample.wi, counters_,
+                               context_.mismatches);
   }
-  startSegment(si.p, sample.wi, planeAt(si, sample.wi), surface_.hit.hit.id);
+  startSegment(si.p, sample.wi, planeAt(si, sample.wi),
+               surface_.coincident.startingWith(surface_.hit.hit.id));
   return playRoulette(/*inMedium=*/false);
 }
 
@@ -239,7 +244,7 @@ bool PathTracer::scatterInMedium() {
   return playRoulette(/*inMedium=*/true);
 }
 
-void PathTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, PrimitiveId start) {
+void PathTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, const Exclusions& start) {
   const float time = ray_.time;
   ray_ = RayDifferential();
   ray_.o = o;

@@ -39,6 +39,7 @@ class PathTracer {
   struct SurfaceVertex {
     SceneHit hit;
     SurfaceInteraction si;
+    CoincidentSurfaces coincident;
   };
   struct MediumVertex {
     Point3f p;
@@ -82,13 +83,13 @@ class PathTracer {
     LightSample sample;  ///< pdf includes `probability`
   };
   std::optional<PickedLight> pickLight(Point3f p, bool scatteringFindsUniformLights);
-  Rgb arriving(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state);
+  Rgb arriving(const PickedLight& light, Point3f p, const Exclusions& start, const MediumState& state);
   float lightWeight(const PickedLight& light, float directionPdf) const;
   float collisionShare(std::size_t light, Point3f p) const;
   float emissionWeight(std::size_t light, const SurfaceInteraction* si) const;
   float mediumEmissionWeight(const MediumLight& source, std::size_t light) const;
   SurfaceInteraction surfaceAt(const SceneHit& hit) const;
-  void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, PrimitiveId start);
+  void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, const Exclusions& start);
   bool seesOnlyEmission() const { return bounces_ >= setup_.params.maxDepth; }
 
   const PathSetup& setup_;
@@ -97,7 +98,7 @@ class PathTracer {
   RenderCounters& counters_;
 
   RayDifferential ray_;
-  PrimitiveId rayStart_;
+  Exclusions rayStart_;
   BoundaryPlane startPlane_;
   MediumState state_;
   SurfaceVertex surface_;

@@ -29,7 +29,8 @@ std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool sca
 }
 
 /// What of a light sample's radiance arrives at `p`; of a medium, what it sends there from that direction.
-Rgb PathTracer::arriving(const PickedLight& light, Point3f p, PrimitiveId start, const MediumState& state) {
+Rgb PathTracer::arriving(const PickedLight& light, Point3f p, const Exclusions& start,
+                         const MediumState& state) {
   const Scene& scene = setup_.scene;
   const LightSample& s = light.sample;
   ShadowRay shadow = shadowRayTo(scene, light.index, s, p, ray_.time, start);
@@ -83,9 +84,11 @@ void PathTracer::lightSurface(const Bsdf& bsdf) {
   const float weight = isDelta ? 1 : lightWeight(*light, bsdf.pdf(si.wo, s.wi));
   MediumState state = state_;
   if (setup_.media) {
-    setup_.media->leaveSurface(state, surface_.hit, si, s.wi, counters_, context_.mismatches);
+    setup_.media->leaveSurface(state, surface_.hit, si, surface_.coincident, s.wi, counters_,
+                               context_.mismatches);
   }
-  radiance_ += beta_ * f * (weight / s.pdf) * arriving(*light, si.p, surface_.hit.hit.id, state);
+  const Exclusions start = surface_.coincident.startingWith(surface_.hit.hit.id);
+  radiance_ += beta_ * f * (weight / s.pdf) * arriving(*light, si.p, start, state);
 }
 
 void PathTracer::lightMedium() {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/diagnostics.h"
 #include "lights/light.h"
 #include "materials/material.h"
 #include "media/medium.h"
@@ -15,6 +16,9 @@ namespace pbrtmedia {
 struct MediumInterface {
   const Medium* inside = nullptr;
   const Medium* outside = nullptr;
+  /// Of primitives in an object: whether the medium moves with the object's placements (it was defined in the
+  /// object), or stays in the world where it was defined.
+  bool insideMoves = true, outsideMoves = true;
   /// Such a surface changes nothing: the ray keeps whatever medium it is in (scene-language reference 17.4).
   bool same() const { return inside == outside; }
 };
@@ -28,6 +32,7 @@ struct Primitive {
   const FloatTexture* shadowAlpha = nullptr;  ///< the same, for yes/no occlusion rays only
   /// One light for each of the shape's primitives, or none at all: the surface does not emit.
   std::vector<AreaLight*> areaLights{};
+  SourceLocation location{};  ///< of the shape in the scene's text, for messages
 
   /// Passing through it can be ignored altogether.
   bool isInvisible() const { return !material && media.same() && areaLights.empty(); }

@@ -17,6 +17,10 @@ Transform Placement::objectFromWorld(double time) const {
   return worldFromObject_.isAnimated() ? worldFromObject_.at(time).inverse() : objectFromWorld_;
 }
 
+Bounds3f Placement::worldBounds(const Bounds3f& object) const {
+  return object.isEmpty() ? object : worldFromObject_.motionBounds(object);
+}
+
 Transform Placement::mediaFromWorld(double time) const {
   return worldFromObject_.isAnimated() ? mediaFromObject_ * objectFromWorld(time) : mediaFromWorld_;
 }
@@ -33,7 +37,9 @@ Scene::Scene(std::unique_ptr<Parts> parts)
     : parts_(std::move(parts)),
       lights_(parts_->lights.begin(), parts_->lights.end()),
       lightTargets_(parts_->lightTargets),
-      bounds_(parts_->top.accelerator.bounds()) {
+      bounds_(parts_->top.accelerator.bounds()),
+      boundaries_(primitiveGroups()),
+      vicinity_(primitiveGroups(), parts_->placements) {
   for (std::uint32_t i = 0; i < lights_.size(); ++i) {
     if (lights_[i]->isInfinite()) infiniteLights_.push_back(i);
   }
@@ -80,6 +86,8 @@ std::vector<Medium*> Scene::learners() const {
   return learners;
 }
 
+const std::deque<Placement>& Scene::placements() const { return parts_->placements; }
+
 SceneHit Scene::resolve(const RayHit& hit) const {
   SceneHit result{.hit = hit};
   const Parts::PlacedPrimitive* placed = nullptr;
@@ -88,7 +96,9 @@ SceneHit Scene::resolve(const RayHit& hit) const {
   } else {
     result.placement = parts_->entries[hit.id.instance].placement;
     placed = &parts_->objects[result.placement->object()].primitives[hit.id.geometry];
-    if (!placed->outsideIsAmbient) result.outsidePlacement = result.placement;
+    const MediumInterface& media = placed->primitive.media;
+    if (media.insideMoves) result.insidePlacement = result.placement;
+    if (media.outsideMoves && !placed->outsideIsAmbient) result.outsidePlacement = result.placement;
   }
   result.primitive = &placed->primitive;
   if (placed->firstLight != SceneHit::kNoLight) result.light = placed->firstLight + hit.id.primitive;

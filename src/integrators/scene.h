@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "accelerators/accelerator.h"
 #include "base/animated_transform.h"
 #include "base/segment.h"
+#include "integrators/boundary_closure.h"
+#include "integrators/boundary_vicinity.h"
 #include "integrators/primitive.h"
 
 namespace pbrtmedia {
@@ -23,8 +26,11 @@ class Placement {
   Placement(std::uint32_t object, const AnimatedTransform& worldFromObject,
             const Transform& mediaFromObject = Transform());
   std::uint32_t object() const { return object_; }
+  bool isAnimated() const { return worldFromObject_.isAnimated(); }
   Transform worldFromObject(double time) const { return worldFromObject_.at(time); }
   Transform objectFromWorld(double time) const;
+  /// World bounds, over all times, of a box of the object.
+  Bounds3f worldBounds(const Bounds3f& object) const;
   const Transform& mediaFromObject() const { return mediaFromObject_; }
   Transform mediaFromWorld(double time) const;
   /// The same line in the space in which the object's media were defined; t keeps its meaning as a world
@@ -44,8 +50,10 @@ struct SceneHit {
   RayHit hit;
   const Primitive* primitive = nullptr;
   const Placement* placement = nullptr;  ///< null: placed directly
-  /// Through which the medium outside is seen: as the one inside if the object itself encloses that medium
-  /// somewhere, else null, as it is then the medium around the object.
+  /// Through which the medium inside is seen: null if it stays where it was defined.
+  const Placement* insidePlacement = nullptr;
+  /// The same for the medium outside; also null if the object itself encloses that medium nowhere, as it is
+  /// then the medium around the object.
   const Placement* outsidePlacement = nullptr;
   /// Index into Scene::lights() of the light on the primitive that was hit; kNoLight: none, or one that is
   /// visible only (lights inside objects, scene-language reference 5.4).
@@ -106,6 +114,12 @@ class Scene {
   std::vector<Medium*> learners() const;
   /// Bounds of all surfaces (over all times). Empty for a scene without surfaces.
   const Bounds3f& bounds() const { return bounds_; }
+  /// Which boundaries of media close.
+  const BoundaryClosure& boundaries() const { return boundaries_; }
+  /// Whether a boundary other than the one that was hit may pass through a point (world).
+  bool mayTouchBoundary(Point3f p, const SceneHit& own = {}) const {
+    return vicinity_.mayHold(p, own.primitive, own.placement);
+  }
   /// Some primitive names a medium.
   bool hasMediumBoundaries() const { return hasMediumBoundaries_; }
   bool hasShadowAlpha() const { return hasShadowAlpha_; }
@@ -113,6 +127,8 @@ class Scene {
   bool hasVisibleEmitters() const { return hasVisibleEmitters_; }
   /// Primitives in groups: those placed directly, then those of every object.
   std::vector<std::vector<const Primitive*>> primitiveGroups() const;
+  /// All placements of objects.
+  const std::deque<Placement>& placements() const;
 
  private:
   friend class SceneBuilder;
@@ -126,6 +142,8 @@ class Scene {
   std::vector<std::uint32_t> hiders_;  ///< up to the last light that has one
   std::vector<std::uint32_t> infiniteLights_;
   Bounds3f bounds_;
+  BoundaryClosure boundaries_;
+  BoundaryVicinity vicinity_;
   bool hasMediumBoundaries_ = false, hasShadowAlpha_ = false, hasVisibleEmitters_ = false,
        hasEmissiveMedia_ = false;
 };

@@ -3,6 +3,7 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <unordered_set>
 
 #include "integrators/scene_parts.h"
@@ -29,6 +30,29 @@ void Scene::Parts::Group::findAmbientMedia() {
     if (!p.primitive.media.same()) enclosed.insert(p.primitive.media.inside);
   }
   for (PlacedPrimitive& p : primitives) p.outsideIsAmbient = enclosed.count(p.primitive.media.outside) == 0;
+}
+
+/// One light for each medium that stays where it was defined, whichever boundaries show it, and for the
+/// others one for each placement.
+void Scene::Parts::addMediumLights() {
+  std::vector<MediumEmitter> inWorld = top.mediumEmitters(/*inObject=*/false);
+  const auto show = [&](const MediumEmitter& emitter, const Bounds3f& boundary) {
+    auto known = std::find_if(inWorld.begin(), inWorld.end(),
+                              [&](const MediumEmitter& e) { return e.medium == emitter.medium; });
+    if (known == inWorld.end()) known = inWorld.insert(known, MediumEmitter{emitter.medium, {}, false});
+    known->boundary.expand(boundary);
+  };
+  std::vector<std::vector<MediumEmitter>> moving(objects.size()), staying(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (const MediumEmitter& e : objects[i].mediumEmitters(/*inObject=*/true)) {
+      (e.moves ? moving : staying)[i].push_back(e);
+    }
+  }
+  for (const Placement& p : placements) {
+    for (const MediumEmitter& e : staying[p.object()]) show(e, p.worldBounds(e.boundary));
+  }
+  mediumLights.add(inWorld, nullptr);
+  for (const Placement& p : placements) mediumLights.add(moving[p.object()], &p);
 }
 
 std::vector<MediumEmitter> Scene::Parts::Group::mediumEmitters(bool inObject) const {
@@ -94,10 +118,7 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
   parts_->top.accelerator.build();
   const Bounds3f bounds = parts_->top.accelerator.bounds();
   for (Light* light : parts_->lights) light->preprocess(bounds);
-  parts_->mediumLights.add(parts_->top.mediumEmitters(/*inObject=*/false), nullptr);
-  std::vector<std::vector<MediumEmitter>> ofObjects;
-  for (const Scene::Parts::Group& o : parts_->objects) ofObjects.push_back(o.mediumEmitters(true));
-  for (const Placement& p : parts_->placements) parts_->mediumLights.add(ofObjects[p.object()], &p);
+  parts_->addMediumLights();
   return std::unique_ptr<Scene>(new Scene(std::move(parts_)));
 }
 

@@ -37,6 +37,8 @@ struct Scene::Parts {
     const Placement* placement = nullptr;
   };
 
+  void addMediumLights();
+
   std::vector<Owned> owned;
   std::vector<Medium*> media;  ///< among the owned
   std::vector<std::unique_ptr<Light>> freeLights;

@@ -79,7 +79,7 @@ LitSample sampleLight(const Scene& scene, const ShadedPoint& point, std::size_t 
   lit.scattered =
       point.bsdf.f(point.si.wo, s.wi, BsdfFlags::AllButSpecular) * absDot(s.wi, point.bsdf.shadingNormal());
   if (lit.scattered.isBlack()) return lit;
-  const ShadowRay shadow = shadowRayTo(scene, light, s, point.si.p, point.time, point.hit.hit.id);
+  const ShadowRay shadow = shadowRayTo(scene, light, s, point.si.p, point.time, Exclusions(point.hit.hit.id));
   if (!scene.occluded(shadow.ray, 0, shadow.exclusions, counters.shadowRays, shadow.hider)) {
     lit.radiance = s.radiance;
   }

@@ -12,13 +12,13 @@ namespace pbrtmedia {
 static constexpr float kEndMargin = 0x1p-18f;
 
 ShadowRay shadowRayTo(const Scene& scene, std::size_t light, const LightSample& sample, Point3f p, float time,
-                      PrimitiveId start) {
+                      const Exclusions& start) {
   ShadowRay shadow;
   shadow.ray.o = p;
   shadow.ray.d = sample.wi;
   shadow.ray.time = time;
   shadow.ray.tMax = sample.distance * (1 - kEndMargin);
-  shadow.exclusions.add(start, 0);
+  shadow.exclusions = start;
   shadow.exclusions.add(scene.lightTarget(light), sample.distance);
   shadow.hider = scene.hiderOf(light);
   return shadow;

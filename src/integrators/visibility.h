@@ -12,10 +12,10 @@ struct ShadowRay {
   std::uint32_t hider = PrimitiveId::kNone;  ///< Scene::hiderOf the light
 };
 
-/// A ray from `p` along `sample.wi` that ends on the light. `start`: primitive that holds p (invalid: none).
+/// A ray from `p` along `sample.wi` that ends on the light. `start`: the primitives that hold p (t = 0).
 /// The emitting primitive itself does not block.
 ShadowRay shadowRayTo(const Scene& scene, std::size_t light, const LightSample& sample, Point3f p, float time,
-                      PrimitiveId start);
+                      const Exclusions& start);
 
 /// Radiance that `medium` sends along the shadow ray to its start, from where it is present inside `span`,
 /// dimmed by everything on the way: black when a surface with a material is before it. `ray.tMax` is behind

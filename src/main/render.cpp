@@ -220,7 +220,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   statistics.write = writing.elapsed();
   statistics.peakMemory = peakMemoryBytes();
 
-  std::cerr << describeFaults(result, options);
+  std::cerr << describeFaults(result, options, scene->scene.get());
   if (!options.quiet) std::cerr << describeRisingBounds(result.learning) << describeComplaints(*scene->scene);
   if (!options.quiet) std::cerr << formatStatistics(statistics);
   const bool isFaulty = result.counters.droppedTotal() > 0 || result.counters.boundViolations > 0;

@@ -2,7 +2,11 @@
 #include "main/warnings.h"
 
 #include <array>
+#include <set>
 #include <sstream>
+#include <vector>
+
+#include "integrators/media_faults.h"
 
 namespace pbrtmedia {
 namespace {
@@ -24,9 +28,27 @@ void describeDropped(const RenderResult& result, const Options& options, std::os
   }
 }
 
+/// What the boundaries of the mismatches have in common with others that went wrong, once each; what is
+/// without fault overlaps something.
+void adviseOnBoundaries(const std::vector<MediumMismatch>& mismatches, const Scene* scene, std::ostream& os) {
+  std::set<const Primitive*> told;
+  bool overlaps = false;
+  for (const MediumMismatch& m : mismatches) {
+    const auto fault = scene && m.boundary ? scene->boundaries().faultOf(*m.boundary) : std::nullopt;
+    if (!fault) {
+      overlaps = true;
+    } else if (told.insert(m.boundary).second) {
+      os << "  " << m.boundary->location.toString() << ": " << describeFault(*m.boundary, *fault) << ".\n";
+    }
+  }
+  if (!overlaps || !told.empty()) return;
+  os << "  Where one boundary lies inside of another, name the medium around it (MediumInterface \"inner\" "
+        "\"outer\");\n  where boundaries cut each other, give their media \"string overlap\" \"add\".\n";
+}
+
 }  // namespace
 
-std::string describeFaults(const RenderResult& result, const Options& options) {
+std::string describeFaults(const RenderResult& result, const Options& options, const Scene* scene) {
   std::ostringstream os;
   describeDropped(result, options, os);
   const RenderCounters& c = result.counters;
@@ -46,10 +68,10 @@ std::string describeFaults(const RenderResult& result, const Options& options) {
   }
   if (c.mediumMismatches > 0 && !options.quiet) {
     os << "pbrt: warning: " << c.mediumMismatches
-       << " boundary crossings name another medium than the ray was in; where boundaries overlap, give the "
-          "media "
-          "\"string overlap\" \"add\".\n";
+       << " boundary crossings name another medium than the ray was in; the boundary is believed, as in "
+          "PBRT-v3.\n";
     for (const MediumMismatch& m : result.mismatches) os << "  " << m.toString() << '\n';
+    adviseOnBoundaries(result.mismatches, scene, os);
   }
   return os.str();
 }

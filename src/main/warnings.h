@@ -12,8 +12,9 @@ namespace pbrtmedia {
 
 /// What went wrong while rendering, as loud text for standard error: dropped samples by cause with the first
 /// of them (pixel, sample, seed), violated density bounds, boundaries that contradict each other. Empty when
-/// all was well.
-std::string describeFaults(const RenderResult& result, const Options& options);
+/// all was well. `scene`: what was rendered, to tell what is wrong with its boundaries; null: they are not
+/// told.
+std::string describeFaults(const RenderResult& result, const Options& options, const Scene* scene = nullptr);
 
 /// Where learned bounds of media stand at the end of a render, for the image header: "cached" when they came
 /// from a cache, else "rising" when some were too low for too many look-ups, else "settled". Empty when none

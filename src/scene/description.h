@@ -38,8 +38,9 @@ struct CameraDescription : Entity {
 
 struct MediumDescription : Entity {
   std::string name;
-  SharedTransform ctm;   ///< medium to world; only `start` counts
-  NameScope::Ptr scope;  ///< for the textures it refers to
+  SharedTransform ctm;          ///< medium to world; only `start` counts
+  NameScope::Ptr scope;         ///< for the textures it refers to
+  std::int32_t object = kNone;  ///< into objects: defined in it, and moves with it; kNone: in none
 };
 
 enum class TextureFlavour : std::uint8_t { Float, Spectrum };

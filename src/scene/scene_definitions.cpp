@@ -80,8 +80,8 @@ void DescriptionBuilder::makeMedium(Statement& s) {
     leftOutMedia_.insert(medium.name);
     return;
   }
-  warnIfAnimated(s);
   medium.ctm = state_.ctm;
+  medium.object = object_;
   if (medium.ctm->start.isSingular()) {
     if (medium.type != "homogeneous") {
       leftOutMedia_.insert(medium.name);

@@ -66,6 +66,18 @@ TEST(CameraMedium, SaysWhenBoundariesDoNotAgree) {
   EXPECT_TRUE(none.empty());
 }
 
+TEST(CameraMedium, IsNotSoughtThroughHoles) {
+  // A box without its lid, seen from above: whatever is behind the hole, nothing is around the camera.
+  SceneKit kit;
+  const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
+  const Shape* wide = kit.quad({-9, -9, -1}, {-9, 9, -1}, {9, 9, -1}, {9, -9, -1});
+  kit.builder.addPrimitive({.shape = wide, .media = {fog, nullptr}});
+  const auto scene = kit.finish();
+  const CameraMedium camera(*scene, {0, 0, 1}, 0);
+  EXPECT_EQ(camera.state().describe(), "vacuum");
+  EXPECT_TRUE(camera.warnings().empty());
+}
+
 TEST(CameraMedium, GivenIsUsedAndAContradictionNamesBoth) {
   SceneKit kit;
   const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));

@@ -163,5 +163,53 @@ TEST(LineWalk, FromTheCameraSeesTheGroundOfALargeWorld) {
   EXPECT_EQ(hitsFromCamera(*scene, {3, 2, 0.01f}, {1, 1, -1}), 1u) << "a centimetre above 20 kilometres";
 }
 
+TEST(LineWalk, MeetsMaterialsFirstHoweverItGrazesThem) {
+  for (const float slope : {1.0f, 0.03f, 0.004f}) {
+    SceneKit kit;
+    const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
+    kit.builder.addPrimitive({.shape = kit.square(0, 900), .media = {fog, nullptr}});
+    kit.builder.addPrimitive(
+        {.shape = kit.quad({-999, -800, 0}, {700, -990, 0}, {900, 888, 0}, {-500, 999, 0}),
+         .material = kit.black()});
+    const auto scene = kit.finish();
+    Rng rng(9);
+    for (int i = 0; i < 200; ++i) {
+      const Ray ray = rayOf({rng.uniform(), rng.uniform(), 1}, {1, rng.uniform() - 0.5f, -slope});
+      LineWalk walk(*scene, ray, Exclusions{});
+      std::uint64_t queries = 0;
+      const auto first = walk.next(queries);
+      ASSERT_TRUE(first);
+      ASSERT_NE(first->primitive->material, nullptr) << slope;
+      const CoincidentSurfaces others = walk.coincidentWith(*first, scene->surface(*first, ray), queries);
+      ASSERT_EQ(others.size(), 1u) << slope;
+      EXPECT_EQ(others.begin()->hit.hit.id.geometry, 0u);
+      EXPECT_FALSE(walk.next(queries));
+    }
+  }
+}
+
+TEST(LineWalk, TellsWhatCoincidesFromWhatIsOnlyNear) {
+  // Seen from far away: what lies 0.001 behind a surface is another one, though t hardly tells.
+  SceneKit kit;
+  const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
+  const Material* black = kit.black();
+  kit.builder.addPrimitive({.shape = kit.square(0, 1), .material = black});
+  kit.builder.addPrimitive({.shape = kit.square(0, 1), .material = black, .media = {fog, nullptr}});
+  kit.builder.addPrimitive({.shape = kit.square(0, 1), .media = {fog, nullptr}});
+  kit.builder.addPrimitive({.shape = kit.square(0, 1), .media = {fog, fog}});
+  kit.builder.addPrimitive({.shape = kit.square(-0.001f, 1), .media = {fog, nullptr}});
+  const auto scene = kit.finish();
+  const Ray ray = rayOf({0.3f, 0.1f, 1000}, {0, 0, -1});
+  LineWalk walk(*scene, ray, Exclusions{});
+  std::uint64_t queries = 0;
+  const auto first = walk.next(queries);
+  ASSERT_TRUE(first);
+  const CoincidentSurfaces others = walk.coincidentWith(*first, scene->surface(*first, ray), queries);
+  for (const CoincidentSurfaces::Entry& e : others) EXPECT_LT(e.hit.hit.id.geometry, 3u);
+  EXPECT_EQ(others.size(), first->hit.id.geometry == 1 ? 1u : 2u);
+  const Exclusions start = others.startingWith(first->hit.id);
+  EXPECT_EQ(start.entries().size(), 1 + others.size());
+}
+
 }  // namespace
 }  // namespace pbrtmedia

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include "support/render_scene.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -81,6 +83,42 @@ TEST(DescribeFaults, LeavesOutRemarksWhenQuiet) {
   Options quiet;
   quiet.quiet = true;
   EXPECT_EQ(describeFaults(result, quiet), "");
+}
+
+/// What is said after rendering media without material in a column along the view.
+std::string faultsOf(const std::string& world) {
+  const Construction scene = test::constructText(test::pencil(2, 2, "\"volpath\"") +
+                                                 "WorldBegin\nMakeNamedMedium \"a\" \"string type\" "
+                                                 "\"homogeneous\"\nMakeNamedMedium \"b\" \"string type\" "
+                                                 "\"homogeneous\"\n" +
+                                                 test::kWhiteEnvironment + world + "WorldEnd\n");
+  const RenderResult result =
+      renderFilm(*scene.camera, *scene.sampler, *scene.integrator, *scene.film, RenderOptions());
+  return describeFaults(result, {}, scene.scene.get());
+}
+
+TEST(DescribeFaults, GivesTheAdviceThatHelps) {
+  const std::string a = test::mediumBox("a", {-1, -1, 1}, {1, 1, 3}), add = "\"string overlap\" \"add\"";
+  EXPECT_EQ(faultsOf(a), "");
+  const std::string overlapping = faultsOf(a + test::mediumBox("b", {-1, -1, 2}, {1, 1, 4}));
+  EXPECT_TRUE(has(overlapping, add)) << overlapping;
+  const std::string inward = faultsOf("ReverseOrientation\n" + a);
+  EXPECT_TRUE(has(inward, "test.pbrt:")) << inward;
+  EXPECT_TRUE(has(inward, "medium \"a\" it faces inward")) << inward;
+  EXPECT_TRUE(has(inward, "ReverseOrientation")) << inward;
+  EXPECT_FALSE(has(inward, add)) << inward;
+  const std::string open = faultsOf(
+      "Material \"none\"\nMediumInterface \"a\" \"\"\nTranslate 0 0 1\nReverseOrientation\nShape \"disk\"\n"
+      "Translate 0 0 1\nMediumInterface \"b\" \"\"\nShape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] "
+      "\"point P\" [ -9 -9 0 9 -9 0 0 9 0 ]\n");
+  EXPECT_TRUE(has(open, "medium \"b\" it is open")) << open;
+  const std::string holes = faultsOf(
+      "Texture \"t\" \"float\" \"checkerboard\"\nReverseOrientation\nMaterial \"none\"\nMediumInterface "
+      "\"b\" \"\"\n"
+      "Translate 0 0 1\nShape \"disk\" \"float radius\" 3 \"texture alpha\" \"t\"\nMediumInterface \"a\" "
+      "\"\"\n"
+      "Translate 0 0 1\nShape \"disk\" \"float radius\" 3 \"texture alpha\" \"t\"\n");
+  EXPECT_TRUE(has(holes, "it has holes where its alpha is 0")) << holes;
 }
 
 }  // namespace

@@ -70,6 +70,21 @@ inline std::string withIntegrator(const std::string& integrator, const std::stri
          "\" \"integer maxdepth\" 1 Camera \"perspective\" \"float fov\" 40\n" + "WorldBegin\n" + world +
          "WorldEnd\n";
 }
+/// A medium in [2, 3] seen along z, of extinction 1.
+inline const std::string kSlab =
+    "Integrator \"volpath\" Camera \"orthographic\" WorldBegin LightSource \"infinite\" \"rgb L\" [ .5 .5 .5 "
+    "] "
+    "MakeNamedMedium \"m\" \"string type\" \"heterogeneous\" \"string border\" \"clamp\" \"float density\" 1 "
+    "\"point p0\" [ -9 -9 2 ] \"point p1\" [ 9 9 3 ] \"rgb sigma_a\" [ 1 1 1 ] \"rgb sigma_s\" [ 0 0 0 ]\n";
+/// A boundary around [0.1, 1]; `nearWall`: parameters of its first wall.
+inline std::string slabBoundary(const std::string& nearWall) {
+  const std::string points = "\"point P\" [ -5 -5 .1 5 -5 .1 5 5 .1 -5 5 .1 -5 -5 1 5 -5 1 5 5 1 -5 5 1 ]";
+  return "MediumInterface \"m\" \"\" Material \"none\" Shape \"trianglemesh\" \"integer indices\" [ 0 2 1 0 "
+         "3 2 ] " +
+         points + nearWall + " Shape \"trianglemesh\" " + points +
+         " \"integer indices\" [ 4 5 6 4 6 7 0 1 5 0 5 4 1 2 6 1 6 5 2 3 7 2 7 6 3 0 4 3 4 7 ]\n";
+}
+inline constexpr std::array<double, 3> kDimmed{.18393972, .18393972, .18393972};
 
 inline std::vector<CorpusScene> corpus() {
   return {
@@ -165,6 +180,23 @@ inline std::vector<CorpusScene> corpus() {
       {"text-behind-world", kCamera + kBall + "WorldEnd\n% end of file", "unknown directive", kBallOnly},
 
       // ---- Media and their boundaries.
+      // A unit of depth in [2, 3] of the world, however the boundary is placed: exp(-1) / 2.
+      {"medium of an instance",
+       kSlab + "ObjectBegin \"o\" " + slabBoundary("") +
+           "ObjectEnd Scale 1 1 9 ObjectInstance \"o\" WorldEnd",
+       "",
+       {{1, 1, kDimmed}, {0, 3, kDimmed}}},
+      {"medium beside an instance",
+       kSlab + "ObjectBegin \"o\" " + slabBoundary("") +
+           "ObjectEnd Translate 0 0 6 ObjectInstance \"o\" WorldEnd",
+       "",
+       {{1, 1, kSky}, {0, 3, kSky}}},
+      // Seen through a hole in the near wall, the box is entered nowhere; what is left at the far wall is
+      // vacuum.
+      {"hole in a boundary",
+       kSlab + "Scale 1 1 9 " + slabBoundary(" \"float alpha\" 0 ") + "WorldEnd",
+       "",
+       {{1, 1, kSky}, {0, 3, kSky}}},
 
       // ---- Lights and shapes.
       {"light without material path", withIntegrator("path", kTwoSheets), "", kWallHalf},

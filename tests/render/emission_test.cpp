@@ -174,7 +174,7 @@ TEST(EmissionInInstances, LooksAsIfPlacedDirectly) {
     // What an object holds is placed by the CTM of its definition first.
     const std::string grid = medium(kGrid, .7, .5, 4);
     return pencil(4, 64, volpath(4), kAtFloor, .6) + "WorldBegin\n" + kFloor +
-           (nested ? "AttributeBegin\n" + undo + grid + "ObjectBegin \"cube\"\n" + kCube +
+           (nested ? "AttributeBegin\n" + undo + "ObjectBegin \"cube\"\n" + grid + kCube +
                          "ObjectEnd\nAttributeEnd\nObjectBegin \"group\"\n" + inner +
                          "ObjectInstance \"cube\"\nObjectEnd\nAttributeBegin\n" + place +
                          "ObjectInstance \"group\"\nAttributeEnd\n"

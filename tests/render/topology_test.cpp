@@ -117,7 +117,7 @@ TEST(InstancedMedia, NinePlacementsLookLikeNineCopies) {
   const std::string body =
       "Material \"none\"\nMediumInterface \"grid\" \"\"\n" + boxMesh({-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4});
   std::ostringstream instances, copies;
-  instances << gradientGrid() << "ObjectBegin \"puff\"\n" << body << "ObjectEnd\n";
+  instances << "ObjectBegin \"puff\"\n" << gradientGrid() << body << "ObjectEnd\n";
   for (int i = 0; i < 9; ++i) {
     std::ostringstream place;
     place << "Translate " << (i % 3 - 1) * 1.1 << ' ' << (i / 3 - 1) * 1.1 << " 0\nRotate " << 17 * i
