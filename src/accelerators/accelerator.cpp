@@ -8,6 +8,7 @@
 #include "accelerators/embree_device.h"
 #include "accelerators/impl.h"
 #include "accelerators/query.h"
+#include "base/interruption.h"
 
 namespace pbrtmedia {
 namespace {
@@ -94,6 +95,9 @@ RTCGeometry makeUser(GeometryRecord& record) {
   return geometry;
 }
 
+/// Embree asks now and then while it builds; no cancels the build.
+bool goesOn(void*, double) { return interruption::requested == StopCause::None; }
+
 }  // namespace
 
 GeometryRecord& Accelerator::Impl::add(const HitFilter* filter) {
@@ -119,6 +123,7 @@ void Accelerator::Impl::attach(GeometryRecord& record) {
     scene = rtcNewScene(embreeDevice());
     rtcSetSceneFlags(
         scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    rtcSetSceneProgressMonitorFunction(scene, goesOn, nullptr);
   }
   rtcAttachGeometryByID(scene, geometry, record.number);
   rtcReleaseGeometry(geometry);
@@ -168,7 +173,10 @@ void Accelerator::build() {
   impl_->isBuilt = true;
   if (impl_->bounds.isEmpty()) return;
   impl_->bytes = measureBuild([this] {
-    for (const auto& record : impl_->records) impl_->attach(*record);
+    for (const auto& record : impl_->records) {
+      leaveIfStopped();
+      impl_->attach(*record);
+    }
     if (impl_->scene) rtcCommitScene(impl_->scene);
   });
 }

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/interruption.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -52,6 +54,7 @@ std::size_t measureBuild(const std::function<void()>& build) {
     bytes = allocatedBytes().load() - before;
     error = rtcGetDeviceError(device);
   });
+  if (error == RTC_ERROR_CANCELLED) leaveIfStopped();
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   if (error != RTC_ERROR_NONE)
     throw std::runtime_error("Embree: build failed, error " + std::to_string(error));

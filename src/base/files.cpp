@@ -2,6 +2,7 @@
 #include "base/files.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -19,12 +20,13 @@
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "base/interruption.h"
 
 namespace pbrtmedia {
 namespace {
 
-constexpr std::size_t kDefaultMaxUnpacked = std::size_t{1} << 36;
 constexpr std::size_t kReadStep = std::size_t{1} << 20;
+constexpr std::size_t kUnpackStep = std::size_t{16} << 20;
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -111,13 +113,14 @@ class Inflater {
 
 GrowingBytes unpack(std::string_view packed, const std::string& shownName, std::size_t maxUnpacked) {
   GrowingBytes out;
+  const std::uint64_t most = std::min<std::uint64_t>(maxUnpacked, mostUnpacked(packed.size()));
   Inflater inflater;
   z_stream& z = inflater.stream();
   std::size_t used = 0;
   for (;;) {
     const auto inNow = static_cast<uInt>(std::min<std::size_t>(packed.size() - used, kReadStep));
     out.makeRoom(std::min(kReadStep, 4 * packed.size() + 64));
-    const auto outNow = static_cast<uInt>(std::min<std::size_t>(out.room(), std::size_t{1} << 30));
+    const auto outNow = static_cast<uInt>(std::min<std::size_t>(out.room(), kUnpackStep));
     // zlib's interface is older than const.
     z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + used));
     z.avail_in = inNow;
@@ -126,9 +129,12 @@ GrowingBytes unpack(std::string_view packed, const std::string& shownName, std::
     const int status = inflate(&z, Z_NO_FLUSH);
     used += inNow - z.avail_in;
     out.wrote(outNow - z.avail_out);
-    if (out.size() > maxUnpacked) {
-      fail(shownName, "cannot unpack \"" + shownName + "\": more than " + std::to_string(maxUnpacked) +
-                          " bytes, the limit");
+    leaveIfStopped();
+    if (out.size() > most) {
+      fail(shownName,
+           "cannot unpack \"" + shownName + "\": its " + std::to_string(packed.size()) +
+               " bytes give more than " + std::to_string(most) + " bytes, the limit" +
+               (most < maxUnpacked ? " for its size; unpack it by hand if it is what it should be" : ""));
     }
     if (status == Z_STREAM_END) {
       // gzip files may be joined; zeros after the end are padding.
@@ -150,9 +156,19 @@ GrowingBytes unpack(std::string_view packed, const std::string& shownName, std::
   }
 }
 
+/// Until there is something to read, or the run is to stop: a pipe may stay silent for ever.
+void waitForBytes(int fd) {
+  constexpr int kLook = 50;  // milliseconds
+  pollfd waiting{fd, POLLIN, 0};
+  do {
+    leaveIfStopped();
+  } while (::poll(&waiting, 1, kLook) == 0);
+}
+
 GrowingBytes readAll(int fd, const std::string& shownName) {
   GrowingBytes in;
   for (;;) {
+    waitForBytes(fd);
     in.makeRoom(kReadStep);
     const ssize_t got = ::read(fd, in.end(), in.room());
     if (got == 0) return in;
@@ -193,7 +209,7 @@ FileBytes FileBytes::open(const std::filesystem::path& path, std::size_t maxUnpa
 FileBytes FileBytes::readDescriptor(int descriptor, const std::string& shownName) {
   GrowingBytes bytes = readAll(descriptor, shownName);
   if (isGzip({bytes.data(), bytes.size()})) {
-    bytes = unpack({bytes.data(), bytes.size()}, shownName, kDefaultMaxUnpacked);
+    bytes = unpack({bytes.data(), bytes.size()}, shownName, std::numeric_limits<std::size_t>::max());
   } else {
     refuseLfsPointer({bytes.data(), bytes.size()}, shownName);
   }

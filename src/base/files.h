@@ -2,13 +2,23 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace pbrtmedia {
+
+/// Bytes that a packed file may unpack to: 2 GiB, and 128 for each of its own. Real volumes and scenes pack
+/// to a tenth or a hundredth, an empty grid of 2 GiB to 2 MB; so a small file cannot take all the memory
+/// there is.
+constexpr std::uint64_t mostUnpacked(std::uint64_t packed) {
+  constexpr std::uint64_t kAlways = std::uint64_t{2} << 30, kPerByte = 128;
+  return kAlways + kPerByte * packed;
+}
 
 /// The bytes of a whole file, memory-mapped; gzip (by its magic bytes) is unpacked into memory. Move-only.
 /// Throws SceneError (location: the file) when it cannot be opened, is a directory or the pointer that Git
@@ -16,8 +26,10 @@ namespace pbrtmedia {
 /// threads.
 class FileBytes {
  public:
-  /// `maxUnpacked` bounds what a compressed file may grow to.
-  static FileBytes open(const std::filesystem::path& path, std::size_t maxUnpacked = std::size_t{1} << 36);
+  /// What a gzip file grows to is bounded by `mostUnpacked`, and by `maxUnpacked`. Memory grows as bytes
+  /// come.
+  static FileBytes open(const std::filesystem::path& path,
+                        std::size_t maxUnpacked = std::numeric_limits<std::size_t>::max());
   /// Everything on a stream descriptor until end of file (standard input), unpacked when it is gzip.
   static FileBytes readDescriptor(int descriptor, const std::string& shownName);
   FileBytes(FileBytes&& o) noexcept;

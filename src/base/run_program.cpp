@@ -6,6 +6,7 @@
 #include <new>
 
 #include "base/diagnostics.h"
+#include "base/interruption.h"
 
 namespace pbrtmedia {
 
@@ -21,6 +22,8 @@ int runProgram(const std::string& name, const std::function<int()>& run) {
     return status;
   } catch (const SceneError& e) {
     return reportError(e.location().toString(), e.what());
+  } catch (const Interrupted& e) {
+    return reportError("", "stopped: " + e.reason());
   } catch (const std::bad_alloc&) {
     return reportError("", "not enough memory");
   } catch (const std::exception& e) {

@@ -34,6 +34,7 @@ struct RenderCounters {
   std::uint64_t boundViolations = 0;   ///< density above its bound
   double worstBoundRatio = 0;          ///< largest density / bound seen in a violation
   std::uint64_t cappedEstimates = 0;   ///< transmittances that a limit on look-ups cut short
+  std::uint64_t stuckPaths = 0;        ///< ended: free flights too short for coordinates to tell
   std::uint64_t mediumMismatches = 0;  ///< crossings where a boundary contradicts the ray's current medium
   std::uint64_t boundaryRepairs = 0;   ///< scatter points that rounding had put beyond their boundary
   std::array<std::uint64_t, static_cast<std::size_t>(DropCause::kCount)> dropped{};
@@ -56,6 +57,7 @@ struct RenderCounters {
     boundViolations += o.boundViolations;
     if (o.worstBoundRatio > worstBoundRatio) worstBoundRatio = o.worstBoundRatio;
     cappedEstimates += o.cappedEstimates;
+    stuckPaths += o.stuckPaths;
     mediumMismatches += o.mediumMismatches;
     boundaryRepairs += o.boundaryRepairs;
     for (std::size_t i = 0; i < dropped.size(); ++i) dropped[i] += o.dropped[i];

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "base/stop_signal.h"
 
+#include <semaphore.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <thread>
 
 namespace pbrtmedia {
 namespace {
@@ -14,10 +18,12 @@ namespace {
 std::atomic<bool> stopRequested{false};
 std::atomic<double> firstRequest{0};  // 0: none yet
 std::atomic<const char*> stopNotice{nullptr};
+sem_t watchIsTold;  // of signals and of its end; lives as long as the process
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<double>::is_always_lock_free &&
               std::atomic<const char*>::is_always_lock_free);
 
 constexpr double kSameRequest = 0.5;  ///< seconds
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 double secondsNow() {
   timespec now{};
@@ -25,36 +31,109 @@ double secondsNow() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+timespec timeAt(double seconds) {
+  const double whole = std::floor(seconds);
+  return {static_cast<time_t>(whole), static_cast<long>((seconds - whole) * 1e9)};
+}
+
+void request(StopCause cause) {
+  StopCause none = StopCause::None;
+  interruption::requested.compare_exchange_strong(none, cause);
+  stopRequested = true;
+}
+
 void onSignal(int number) {
+  const int savedError = errno;
   const double now = secondsNow();
   double first = 0;
   if (!firstRequest.compare_exchange_strong(first, now)) {
-    if (now - first < kSameRequest) return;
-    std::signal(number, SIG_DFL);
-    std::raise(number);
+    if (now - first >= kSameRequest) {
+      std::signal(number, SIG_DFL);
+      std::raise(number);
+    }
+    errno = savedError;
     return;
   }
-  stopRequested = true;
+  request(StopCause::Signal);
   if (const char* notice = stopNotice) {
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, notice, std::strlen(notice));
   }
+  ::sem_post(&watchIsTold);
+  errno = savedError;
 }
 
 }  // namespace
 
-StopSignal::StopSignal(const char* notice) {
+/// A thread that sleeps until the time is up or a signal came, and then until the grace of paths is over.
+class StopSignal::Watch {
+ public:
+  Watch(double deadline, bool abandonsPaths) {
+    while (::sem_trywait(&watchIsTold) == 0) {  // of an earlier watch
+    }
+    thread_ = std::thread([this, deadline, abandonsPaths] {
+      if (!waitUntil(deadline)) request(StopCause::Time);
+      if (!abandonsPaths || done_) return;
+      const double end = secondsNow() + kGrace;
+      while (waitUntil(end) && !done_) {
+      }
+      if (!done_) interruption::abandonsPaths = true;
+    });
+  }
+  ~Watch() {
+    done_ = true;
+    ::sem_post(&watchIsTold);
+    thread_.join();
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+ private:
+  /// Whether something was told before `deadline`; the end of the watch counts.
+  bool waitUntil(double deadline) {
+    const bool isEndless = !(deadline < 1e12);
+    const timespec end = timeAt(isEndless ? 0 : deadline);
+    for (;;) {
+      const int failed =
+          isEndless ? ::sem_wait(&watchIsTold) : ::sem_clockwait(&watchIsTold, CLOCK_MONOTONIC, &end);
+      if (failed == 0) return true;
+      if (errno != EINTR) return false;
+    }
+  }
+
+  std::atomic<bool> done_{false};
+  std::thread thread_;
+};
+
+StopSignal::StopSignal(const Params& params) {
+  [[maybe_unused]] static const int initialised = ::sem_init(&watchIsTold, 0, 0);
   stopRequested = false;
   firstRequest = 0;
-  stopNotice = notice;
-  std::signal(SIGINT, onSignal);
-  std::signal(SIGTERM, onSignal);
+  stopNotice = params.notice;
+  interruption::requested = StopCause::None;
+  interruption::abandonsPaths = false;
+  if (params.timeLimit < kNever || params.abandonsPaths) {
+    watch_ = std::make_unique<Watch>(secondsNow() + params.timeLimit, params.abandonsPaths);
+  }
+  for (const int number : kSignals) {
+    const auto before = std::signal(number, onSignal);
+    if (number == SIGHUP && before == SIG_IGN) std::signal(number, SIG_IGN);
+  }
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 StopSignal::~StopSignal() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int number : kSignals) {
+    const auto before = std::signal(number, SIG_DFL);
+    if (number == SIGHUP && before == SIG_IGN) std::signal(number, SIG_IGN);
+  }
+  std::signal(SIGPIPE, SIG_DFL);
+  watch_.reset();
+  interruption::requested = StopCause::None;
+  interruption::abandonsPaths = false;
 }
 
 const std::atomic<bool>& StopSignal::flag() const { return stopRequested; }
+
+void StopSignal::say(const char* notice) { stopNotice = notice; }
 
 }  // namespace pbrtmedia

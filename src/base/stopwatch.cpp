@@ -2,8 +2,10 @@
 #include "base/stopwatch.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <ctime>
+#include <limits>
 
 namespace pbrtmedia {
 namespace {
@@ -28,6 +30,12 @@ std::size_t peakMemoryBytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux reports KiB
+}
+
+std::uint64_t machineMemoryBytes() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES), bytes = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || bytes <= 0) return std::numeric_limits<std::uint64_t>::max();
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes);
 }
 
 }  // namespace pbrtmedia

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 
 namespace pbrtmedia {
 
@@ -31,5 +32,7 @@ class Stopwatch {
 
 /// Largest resident size of the process so far, bytes.
 std::size_t peakMemoryBytes();
+/// Memory of the machine, bytes; the largest number where the system does not tell.
+std::uint64_t machineMemoryBytes();
 
 }  // namespace pbrtmedia

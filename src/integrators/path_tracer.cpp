@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/path_tracer.h"
 
+#include "base/interruption.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -15,6 +17,10 @@ constexpr float kMediumRouletteWeight = 0.03f;
 /// Channels whose extinctions differ by more than this factor are followed one by one. Three paths cost 2 to
 /// 2.6 times one; the variance of one reaches that at factors of 2.5 to 4 (cubes of optical depth 2 to 40).
 constexpr float kSplitFactor = 3;
+
+/// After so many scatterings in one place free flights are far shorter than coordinates can tell (were they
+/// as long as a hundredth of that, one in 1e50 would stay): the path would scatter there for ever.
+constexpr int kMostBouncesInPlace = 1024;
 
 BoundaryPlane planeAt(const SurfaceInteraction& si, Vector3f toward) {
   return {true, si.p, faceForward(si.n, toward)};
@@ -74,6 +80,7 @@ PathTracer::Event PathTracer::travelOn(Travel& way) {
     return !setup_.media || setup_.media->fits(state_, h, setup_.scene.surface(h, ray_), ray_.d);
   };
   for (;;) {
+    leaveIfAbandoned();
     const std::optional<SceneHit> nearest = walk.peek(counters_.rays);
     const double tEnd = nearest ? std::max<double>(t, nearest->t()) : kInfinity;
     if (!nearest && setup_.media) setup_.media->escape(state_, counters_);
@@ -230,6 +237,11 @@ bool PathTracer::scatterOnSurface() {
 
 bool PathTracer::scatterInMedium() {
   ++counters_.mediumScatterings;
+  bouncesInPlace_ = medium_.p == ray_.o ? bouncesInPlace_ + 1 : 0;
+  if (bouncesInPlace_ > kMostBouncesInPlace) {
+    ++counters_.stuckPaths;
+    return false;
+  }
   samples_.startVertex(bounces_);
   // A phase function samples a uniform light perfectly, but not what dims it on the way: where light sampling
   // adds a second, independent look through the medium, it pays (variance and time change by like factors).

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "base/interruption.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 
@@ -29,7 +30,7 @@ constexpr double kProgressInterval = 0.1;  // seconds
 struct Tile {
   Bounds2i pixels;
   RenderCounters counters;
-  std::uint64_t samples = 0;
+  std::uint64_t samples = 0, abandoned = 0, pixelsSampled = 0;
   std::vector<DroppedSample> dropped;
   std::vector<MediumMismatch> mismatches;
   std::vector<ViolationRecord> violations;
@@ -40,7 +41,7 @@ std::vector<Tile> tilesOf(Bounds2i bounds, int size) {
   std::vector<Tile> tiles;
   for (int y = bounds.min.y; y < bounds.max.y; y += size) {
     for (int x = bounds.min.x; x < bounds.max.x; x += size) {
-      tiles.push_back({intersect(Bounds2i{{x, y}, {x + size, y + size}}, bounds), {}, 0, {}, {}, {}, false});
+      tiles.emplace_back().pixels = intersect(Bounds2i{{x, y}, {x + size, y + size}}, bounds);
     }
   }
   return tiles;
@@ -87,6 +88,7 @@ class RenderLoop {
     const auto area = static_cast<std::uint64_t>(bounds_.area());
     result_.samplesTotal =
         area * static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel_ - options_.firstSample, 0));
+    result_.pixelsTotal = area;
     result_.completedSamplesPerPixel = options_.firstSample;
     if (result_.samplesTotal > 0) warmUp();
     std::int64_t next = options_.firstSample;
@@ -138,6 +140,8 @@ class RenderLoop {
     for (const Tile& tile : tiles) {
       complete &= tile.complete;
       result_.samplesTaken += tile.samples;
+      result_.samplesAbandoned += tile.abandoned;
+      if (first == options_.firstSample) result_.pixelsSampled += tile.pixelsSampled;
       result_.counters.add(tile.counters);
       mergeRecords(result_.dropped, tile.dropped, options_.maxRecords);
       mergeRecords(result_.mismatches, tile.mismatches, options_.maxRecords);
@@ -192,7 +196,13 @@ class RenderLoop {
       for (int x = tile.pixels.min.x; x < tile.pixels.max.x; ++x) {
         for (int s = 0; s < count; ++s) {
           if (shouldStop()) return;
-          takeSample(tile, *sampler, {x, y}, first + s, pass.at({x, y}, s));
+          try {
+            takeSample(tile, *sampler, {x, y}, first + s, pass.at({x, y}, s));
+          } catch (const Interrupted&) {
+            ++tile.abandoned;
+            return;
+          }
+          if (s == 0) ++tile.pixelsSampled;
         }
         samplesDone_.fetch_add(static_cast<std::uint64_t>(count), std::memory_order_relaxed);
       }

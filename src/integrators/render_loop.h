@@ -84,6 +84,9 @@ struct RenderResult {
   RenderCounters counters;
   double seconds = 0;
   bool interrupted = false;  ///< stopped before the last sample
+  /// Samples whose paths were under way when the run was to stop and did not end soon: not on the film.
+  std::uint64_t samplesAbandoned = 0;
+  std::uint64_t pixelsTotal = 0, pixelsSampled = 0;  ///< the latter have a sample at least
   /// The first in order of pixel (row by row), then sample; each at most RenderOptions::maxRecords.
   std::vector<DroppedSample> dropped;
   std::vector<MediumMismatch> mismatches;
@@ -94,8 +97,8 @@ struct RenderResult {
 /// Takes the samples of an image and accumulates them on the film, in passes over the film. Every sample is a
 /// pure function of (seed, pixel, sample index), and of the passes before where bounds are learned: image,
 /// counters and records are the same for any number of threads, tile size and grouping into passes. Stopped
-/// early (time, flag, callback) it leaves the film with
-/// exactly the samples that were taken.
+/// early (time, flag, callback) it leaves the film with exactly the samples that were taken; a path that is
+/// left on its way (leaveIfAbandoned) is none.
 RenderResult renderFilm(const Camera& camera, const Sampler& sampler, const Integrator& integrator,
                         Film& film, const RenderOptions& options);
 

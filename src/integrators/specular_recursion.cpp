@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "base/interruption.h"
 #include "integrators/line_walk.h"
 
 namespace pbrtmedia {
@@ -128,6 +129,7 @@ Rgb SpecularRecursion::visit(const Next& at, std::unique_ptr<Vertex>& vertex) {
   LineWalk walk =
       isFromCamera ? LineWalk::fromCamera(scene_, ray) : LineWalk(scene_, ray, Exclusions(at.start));
   for (;;) {
+    leaveIfAbandoned();
     const std::optional<SceneHit> hit = walk.next(context_.counters.rays);
     if (!hit) {
       for (const std::uint32_t i : scene_.infiniteLights()) sum += scene_.lights()[i]->background(ray.d);

@@ -77,7 +77,10 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
       ->check(wholeNumber(std::uint64_t{0}, ~std::uint64_t{0}))
       ->type_name("N")
       ->group(render);
-  app.add_option("--time", options.timeLimit, "stop rendering after this many seconds, with a valid image")
+  app.add_option(
+         "--time", options.timeLimit,
+         "stop this many seconds after the start, with a valid image of what there is; exit status 1 and no "
+         "image when that is nothing yet")
       ->check(number(NumberRange::above(0)))
       ->type_name("SECONDS")
       ->group(render);

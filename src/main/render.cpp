@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "main/render.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
@@ -108,18 +109,38 @@ Image withHeader(Image image, const RenderStatistics& statistics, const Options&
   return image;
 }
 
-RenderResult renderImage(const Construction& scene, const Options& options, const StopSignal& stop) {
+constexpr const char* kNothingYet =
+    "\nstopping before the first sample: there is no image (again to end at once)\n";
+constexpr const char* kImageSoFar = "\nstopping; the image so far will be written (again to end at once)\n";
+
+/// When and why a run ends early.
+struct Ending {
+  const StopSignal& stop;
+  Stopwatch sinceStart;  ///< of the program
+};
+
+/// A run that was stopped before there was anything to write.
+int reportNoImage(const Interrupted& stopped, const Options& options, const Ending& ending,
+                  const std::string& when) {
+  std::cerr << "pbrt: error: ";
+  if (stopped.cause() == StopCause::Time) std::cerr << "--time " << options.timeLimit.value_or(0) << ": ";
+  std::cerr << "stopped after " << formatDuration(ending.sinceStart.seconds()) << ", " << when
+            << "; no image is written\n";
+  return kExitBadInput;
+}
+
+RenderResult renderImage(const Construction& scene, const Options& options, const Ending& ending) {
   RenderOptions loop;
   loop.seed = options.seed;
   loop.tileSize = options.tileSize;
   loop.pixelBounds = scene.pixelBounds;
-  loop.stop = &stop.flag();
+  loop.stop = &ending.stop.flag();
   loop.learners = scene.scene->learners();
-  if (options.timeLimit) loop.timeLimit = *options.timeLimit;
+  const double timeLeft = options.timeLimit ? *options.timeLimit - ending.sinceStart.seconds() : 0;
   ProgressLine line(options.progress, options.quiet, scene.outfile.filename().string());
   loop.progress = [&](const RenderProgress& p) {
     line.update(static_cast<std::int64_t>(p.samplesDone), static_cast<std::int64_t>(p.samplesTotal),
-                options.timeLimit.value_or(0));
+                std::max(0.0, timeLeft));
   };
   RenderResult result = renderFilm(*scene.camera, *scene.sampler, *scene.integrator, *scene.film, loop);
   line.finish(static_cast<std::int64_t>(result.samplesTaken), static_cast<std::int64_t>(result.samplesTotal));
@@ -159,7 +180,7 @@ std::string worldName(const Options& options, std::size_t number) {
 /// built.
 std::optional<RenderStatistics> renderWorld(SceneDescription& description, const std::string& name,
                                             const Options& options, const PhaseTime& parseTime,
-                                            KeptBounds& bounds, int& status) {
+                                            const Ending& ending, KeptBounds& bounds, int& status) {
   RenderStatistics statistics;
   statistics.scene = sceneNames(options);
   statistics.seed = options.seed;
@@ -203,9 +224,9 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   const std::string boundsWarnings = bounds.restore(name, *scene->scene);
   if (!options.quiet) std::cerr << boundsWarnings;
 
-  const StopSignal stop("\nstopping; the image so far will be written (again to end at once)\n");
+  StopSignal::say(kImageSoFar);
   const Stopwatch rendering;
-  const RenderResult result = renderImage(*scene, options, stop);
+  const RenderResult result = renderImage(*scene, options, ending);
   statistics.render = rendering.elapsed();
   statistics.samplesTaken = static_cast<std::int64_t>(result.samplesTaken);
   statistics.samplesPlanned = static_cast<std::int64_t>(result.samplesTotal);
@@ -213,6 +234,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   statistics.counters = result.counters;
   statistics.learning = result.learning;
 
+  if (result.samplesTaken == 0 && result.interrupted) leaveIfStopped();  // black would be a wrong image
   const Stopwatch writing;
   writeRendered(scene->outfile, withHeader(scene->film->develop(), statistics, options, identity), options,
                 status);
@@ -220,6 +242,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   statistics.write = writing.elapsed();
   statistics.peakMemory = peakMemoryBytes();
 
+  if (!options.quiet) std::cerr << describeStop(result);
   std::cerr << describeFaults(result, options, scene->scene.get());
   if (!options.quiet) std::cerr << describeRisingBounds(result.learning) << describeComplaints(*scene->scene);
   if (!options.quiet) std::cerr << formatStatistics(statistics);
@@ -235,14 +258,22 @@ int runPbrt(const Options& options) {
   if (options.statsFile) requireWritable("--stats", *options.statsFile);
   if (options.boundsCache) requireWritable("--bounds-cache", *options.boundsCache);
   const ThreadLimit threads(options.threads);
+  const StopSignal stop({.notice = kNothingYet,
+                         .timeLimit = options.timeLimit.value_or(StopSignal::kNever),
+                         .abandonsPaths = true});
+  const Ending ending{stop, Stopwatch()};
 
   const Stopwatch parsing;
   Diagnostics diagnostics;
   diagnostics.strict = options.strict;
-  std::vector<SceneDescription> worlds = [&] {
+  std::vector<SceneDescription> worlds;
+  try {
     const PhaseLine line(options.progress, options.quiet, "reading " + sceneNames(options));
-    return parseFiles(options.scenes, diagnostics);
-  }();
+    worlds = parseFiles(options.scenes, diagnostics);
+  } catch (const Interrupted& stopped) {
+    show(diagnostics, options.quiet);
+    return reportNoImage(stopped, options, ending, "while the scene was read");
+  }
   const PhaseTime parseTime = parsing.elapsed();
   if (worlds.empty() && !diagnostics.hasErrors()) {
     diagnostics.error({}, "no WorldBegin … WorldEnd block in " + sceneNames(options) + ": nothing to render");
@@ -255,14 +286,21 @@ int runPbrt(const Options& options) {
   int status = 0;
   std::vector<RenderStatistics> all;
   for (SceneDescription& world : worlds) {
-    const std::optional<RenderStatistics> one =
-        renderWorld(world, worldName(options, all.size()), options, all.empty() ? parseTime : PhaseTime{},
-                    bounds, status);
-    if (!one) return status;
-    all.push_back(*one);
-    if (one->interrupted) break;
+    StopSignal::say(kNothingYet);
+    try {
+      const std::optional<RenderStatistics> one =
+          renderWorld(world, worldName(options, all.size()), options, all.empty() ? parseTime : PhaseTime{},
+                      ending, bounds, status);
+      if (!one) return status;
+      all.push_back(*one);
+    } catch (const Interrupted& stopped) {
+      const std::string which = worlds.size() > 1 ? " of world " + std::to_string(all.size() + 1) : "";
+      status = reportNoImage(stopped, options, ending, "before the first sample" + which);
+      break;
+    }
+    if (all.back().interrupted) break;
   }
-  if (options.statsFile) writeStatistics(*options.statsFile, all);
+  if (options.statsFile && !all.empty()) writeStatistics(*options.statsFile, all);
   return status;
 }
 

@@ -32,6 +32,7 @@ nlohmann::ordered_json toJson(const RenderCounters& c) {
           {"boundViolations", c.boundViolations},
           {"worstBoundRatio", c.worstBoundRatio},
           {"cappedEstimates", c.cappedEstimates},
+          {"stuckPaths", c.stuckPaths},
           {"mediumMismatches", c.mediumMismatches},
           {"boundaryRepairs", c.boundaryRepairs},
           {"droppedSamples", dropped}};

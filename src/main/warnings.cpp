@@ -8,6 +8,8 @@
 
 #include "integrators/media_faults.h"
 
+#include "base/stop_signal.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -66,6 +68,14 @@ std::string describeFaults(const RenderResult& result, const Options& options, c
     os << "pbrt: warning: " << c.cappedEstimates
        << " transmittance estimates were cut short by maxlookups.\n";
   }
+  if (c.stuckPaths > 0 && !options.quiet) {
+    os << "pbrt: warning: " << c.stuckPaths
+       << " paths were ended in media so dense that coordinates cannot tell one scattering from the next; "
+          "the "
+          "light they would have found is missing, so the image is too dark there: a smaller extinction "
+          "looks "
+          "the same\n";
+  }
   if (c.mediumMismatches > 0 && !options.quiet) {
     os << "pbrt: warning: " << c.mediumMismatches
        << " boundary crossings name another medium than the ray was in; the boundary is believed, as in "
@@ -100,6 +110,21 @@ std::string describeRisingBounds(const std::vector<LearningRecord>& learning) {
             "or a second run with --bounds-cache come closer";
     }
     os << ".\n";
+  }
+  return os.str();
+}
+
+std::string describeStop(const RenderResult& result) {
+  if (!result.interrupted) return {};
+  std::ostringstream os;
+  if (result.pixelsSampled < result.pixelsTotal) {
+    os << "pbrt: warning: stopped in the first pass: " << result.pixelsTotal - result.pixelsSampled << " of "
+       << result.pixelsTotal << " pixels have no sample of their own; they are black or show what the filter "
+       << "spreads from their neighbours\n";
+  }
+  if (result.samplesAbandoned > 0) {
+    os << "pbrt: warning: " << result.samplesAbandoned << " paths did not end within " << StopSignal::kGrace
+       << " s of the stop and were left; their samples are not in the image\n";
   }
   return os.str();
 }

@@ -24,6 +24,10 @@ std::string boundsState(const std::vector<LearningRecord>& learning);
 /// A warning for every medium whose learned bounds were too low for too many look-ups. Empty when none were.
 std::string describeRisingBounds(const std::vector<LearningRecord>& learning);
 
+/// What an image lacks that was stopped early: pixels without a sample, paths left on their way. A line each;
+/// empty when nothing is missing but further samples.
+std::string describeStop(const RenderResult& result);
+
 /// What was wrong with the densities of media, a warning each. Empty when nothing was.
 std::string describeComplaints(const Scene& scene);
 

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "base/hash.h"
+#include "base/interruption.h"
 #include "scene/description_builder.h"
 
 namespace pbrtmedia {
@@ -28,6 +29,7 @@ class Parser {
       return true;
     }
     while (diagnostics_.errorCount() < errorLimit_) {
+      leaveIfStopped();
       try {
         std::optional<Statement> s = statements_.next();
         if (!s) return true;

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "base/hash.h"
+#include "base/interruption.h"
 #include "scene/directives.h"
 
 namespace pbrtmedia {
@@ -64,6 +65,7 @@ void TokenStream::push(std::optional<FileBytes> file, std::string_view text, std
 void TokenStream::addToHash(const FileBytes* file, std::string_view text) {
   textHash_ = hashCombine(textHash_, text.size());
   for (std::size_t at = 0; at < text.size(); at += kReleaseStep) {
+    leaveIfStopped();
     textHash_ = hashText(text.substr(at, kReleaseStep), textHash_);
     if (file != nullptr && file->isMapped()) file->releaseUpTo(at);
   }
@@ -113,6 +115,7 @@ const Token& TokenStream::peek() {
 }
 
 Token TokenStream::take() {
+  leaveIfStopped();
   const Token token = peek();
   peeked_.reset();
   ++taken_;
@@ -157,6 +160,7 @@ std::size_t TokenStream::readInts(int* out, std::size_t most) {
 }
 
 void TokenStream::releaseConsumed() {
+  leaveIfStopped();  // once for each block of numbers
   Open& top = open_.back();
   const std::size_t offset = top.lexer.offset();
   if (!top.file || offset - top.released < kReleaseStep) return;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "base/interruption.h"
 #include "transmittance/poisson.h"
 
 namespace pbrtmedia {
@@ -34,7 +35,7 @@ std::uint64_t OrderRoulette::draw(double u) const {
   if (certain > 0 && beyondZero < u) return 0;
   double probability = certain > 0 ? beyondZero : 1;
   std::uint64_t order = certain;
-  while ((probability *= continuation(order + 1)) >= u) ++order;
+  for (; (probability *= continuation(order + 1)) >= u; ++order) leaveIfAbandoned();
   return order;
 }
 
@@ -43,6 +44,7 @@ double OrderRoulette::expectedOrder() const {
   double sum = certain > 0 ? static_cast<double>(certain) * beyondZero : 0;
   constexpr double kNegligible = 1e-17;
   for (std::uint64_t k = certain + 1;; ++k) {
+    leaveIfAbandoned();
     // Asked for at every estimate, so without a division for the orders that matter.
     const double next = k < kInverses.size() ? expansion * kInverses[k] : expansion / static_cast<double>(k);
     probability *= k == 1 ? beyondZero * std::min(next, 1.0) : std::min(next, 1.0);

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/interruption.h"
 #include "transmittance/channel_products.h"
 #include "transmittance/lookup_limit.h"
 #include "transmittance/parameters.h"
@@ -89,6 +90,7 @@ struct PSeriesNextFlight {
     hazards.reserve(last - first + 1);
     double inverse = 1, term = 1;  // 1/h_last = 1 + mean/(last+1) (1 + mean/(last+2) (1 + ...))
     for (double j = static_cast<double>(last) + 1; !std::isinf(inverse); ++j) {
+      leaveIfAbandoned();
       term *= mean / j;
       inverse += term;
       if (term <= inverse * 1e-18 && mean < j) break;

@@ -97,6 +97,8 @@ double poissonTail(std::uint64_t k, double mean) {
 
 std::uint64_t poissonQuantile(double u, double mean) {
   if (!(mean > 0)) return 0;
+  constexpr double kMost = 0x1p62;  // beyond, the quantile and the mean are the same number
+  if (mean >= kMost) return std::uint64_t{1} << 62;
   if (mean < kCountFromZero) {
     double term = std::exp(-mean), sum = term, n = 0;
     // Rounding may leave the sum of all terms below u: the end of the terms ends the search.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/interruption.h"
 #include "transmittance/scaled_double.h"
 #include "transmittance/symmetric_means.h"
 
@@ -11,13 +12,19 @@ namespace pbrtmedia {
 
 std::uint64_t TaylorRoulette::draw(double u) const {
   std::uint64_t order = 0;
-  for (double reaching = continuation(1); reaching >= u; reaching *= continuation(order + 1)) ++order;
+  for (double reaching = continuation(1); reaching >= u; reaching *= continuation(order + 1)) {
+    leaveIfAbandoned();
+    ++order;
+  }
   return order;
 }
 
 double TaylorRoulette::expectedOrder() const {
   double sum = 0, reaching = 1;
-  for (std::uint64_t j = 1; reaching > 1e-17; ++j) sum += reaching *= continuation(j);
+  for (std::uint64_t j = 1; reaching > 1e-17; ++j) {
+    leaveIfAbandoned();
+    sum += reaching *= continuation(j);
+  }
   return sum;
 }
 

@@ -36,6 +36,11 @@ std::size_t entries(const std::filesystem::path& folder) {
       std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
 }
 
+TEST(FileBytes, MayUnpackToWhatRealFilesDo) {
+  EXPECT_GT(mostUnpacked(1100000), (std::uint64_t{1} << 30) + 1000) << "an empty grid of a GiB";
+  EXPECT_LT(mostUnpacked(std::uint64_t{64} << 20), std::uint64_t{11} << 30) << "no 64 GiB from 64 MiB";
+}
+
 TEST(FileBytes, GivesTheBytesOfAFile) {
   const TemporaryFolder folder;
   EXPECT_EQ(FileBytes::open(folder.write("a", "hello")).text(), "hello");

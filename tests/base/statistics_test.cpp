@@ -10,7 +10,7 @@ RenderCounters numbered(std::uint64_t first) {
   RenderCounters c;
   for (std::uint64_t* n :
        {&c.cameraSamples, &c.rays, &c.shadowRays, &c.densityLookups, &c.nullCollisions, &c.mediumScatterings,
-        &c.surfaceScatterings, &c.boundViolations, &c.cappedEstimates, &c.mediumMismatches,
+        &c.surfaceScatterings, &c.boundViolations, &c.cappedEstimates, &c.stuckPaths, &c.mediumMismatches,
         &c.boundaryRepairs, &c.dropped[0], &c.dropped[1], &c.dropped[2]})
     *n = first++;
   return c;
@@ -22,13 +22,13 @@ TEST(RenderCounters, AddsEveryCount) {
   std::uint64_t expected = 1100;
   for (const std::uint64_t n :
        {c.cameraSamples, c.rays, c.shadowRays, c.densityLookups, c.nullCollisions, c.mediumScatterings,
-        c.surfaceScatterings, c.boundViolations, c.cappedEstimates, c.mediumMismatches, c.boundaryRepairs,
-        c.dropped[0], c.dropped[1], c.dropped[2]}) {
+        c.surfaceScatterings, c.boundViolations, c.cappedEstimates, c.stuckPaths, c.mediumMismatches,
+        c.boundaryRepairs, c.dropped[0], c.dropped[1], c.dropped[2]}) {
     EXPECT_EQ(n, expected);
     expected += 2;
   }
   // A new counter must be added here and in `add`.
-  EXPECT_EQ(sizeof(RenderCounters), 15 * sizeof(std::uint64_t) + sizeof(std::optional<BoundViolation>));
+  EXPECT_EQ(sizeof(RenderCounters), 16 * sizeof(std::uint64_t) + sizeof(std::optional<BoundViolation>));
 }
 
 TEST(RenderCounters, LeavesExamplesOfViolationsToWhoeverTakesThem) {

@@ -5,13 +5,14 @@
 
 #include <chrono>
 #include <csignal>
+#include <functional>
 #include <thread>
 
 namespace pbrtmedia {
 namespace {
 
 TEST(StopSignal, SetsItsFlagOnTheFirstRequest) {
-  for (const int number : {SIGINT, SIGTERM}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const StopSignal stop;
     EXPECT_FALSE(stop.flag());
     std::raise(number);
@@ -27,6 +28,57 @@ TEST(StopSignal, TakesOneRequestDeliveredTwiceForOne) {
   std::raise(SIGINT);
   std::raise(SIGTERM);
   EXPECT_TRUE(stop);
+}
+
+StopCause causeOfLeaving(void (*leave)()) {
+  try {
+    leave();
+  } catch (const Interrupted& stopped) {
+    return stopped.cause();
+  }
+  return StopCause::None;
+}
+
+void waitFor(const std::function<bool()>& holds) {
+  for (int i = 0; i < 2000 && !holds(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+TEST(StopSignal, MakesEverybodyLeaveAndPathsAMomentLater) {
+  const StopSignal stop({.abandonsPaths = true});
+  EXPECT_EQ(causeOfLeaving(leaveIfStopped), StopCause::None);
+  EXPECT_EQ(causeOfLeaving(leaveIfAbandoned), StopCause::None);
+  const auto start = std::chrono::steady_clock::now();
+  std::raise(SIGTERM);
+  EXPECT_EQ(causeOfLeaving(leaveIfStopped), StopCause::Signal);
+  waitFor([] { return causeOfLeaving(leaveIfAbandoned) == StopCause::Signal; });
+  EXPECT_EQ(causeOfLeaving(leaveIfAbandoned), StopCause::Signal);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_GE(seconds, StopSignal::kGrace);
+}
+
+TEST(StopSignal, StopsWhenTheTimeIsUpAndLeavesNothingBehind) {
+  {
+    const StopSignal stop({.timeLimit = 0.02});
+    EXPECT_FALSE(stop);
+    waitFor([&] { return stop.flag().load(); });
+    EXPECT_TRUE(stop);
+    EXPECT_EQ(causeOfLeaving(leaveIfStopped), StopCause::Time);
+    EXPECT_EQ(causeOfLeaving(leaveIfAbandoned), StopCause::None) << "only who asks for it abandons paths";
+  }
+  EXPECT_EQ(causeOfLeaving(leaveIfStopped), StopCause::None);
+  const StopSignal again({.timeLimit = 1e300});
+  EXPECT_FALSE(again);
+}
+
+TEST(StopSignal, LeavesAHangupIgnoredWhereItWas) {
+  std::signal(SIGHUP, SIG_IGN);  // as nohup does
+  {
+    const StopSignal stop;
+    std::raise(SIGHUP);
+    EXPECT_FALSE(stop);
+  }
+  std::raise(SIGHUP);  // would end this process
+  std::signal(SIGHUP, SIG_DFL);
 }
 
 TEST(StopSignalDeathTest, EndsTheProcessOnASecondRequest) {

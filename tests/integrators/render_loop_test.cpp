@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/parallel.h"
+#include "base/stop_signal.h"
 #include "filters/gaussian.h"
 #include "scene_kit.h"
 
@@ -150,6 +151,28 @@ TEST(RenderLoop, StopsOnTheFlagAndOnTheCallback) {
                                           }});
   EXPECT_TRUE(called.result.interrupted);
   EXPECT_EQ(called.result.completedSamplesPerPixel, 4);
+}
+
+TEST(RenderLoop, LeavesPathsThatDoNotEndOutOfTheImage) {
+  const StopSignal signal({.timeLimit = 0.05, .abandonsPaths = true});
+  const FakeIntegrator integrator([&](const RayDifferential& ray, SampleContext&) {
+    while (ray.o.y > 4) leaveIfAbandoned();
+    return Rgb(1);
+  });
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome out = render(integrator, {.stop = &signal.flag()});
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  EXPECT_TRUE(out.result.interrupted);
+  EXPECT_EQ(out.result.samplesAbandoned, 1u);
+  EXPECT_GT(out.result.samplesTaken, 0u);
+  EXPECT_EQ(out.result.pixelsSampled, out.result.samplesTaken) << "the first pass takes one of each";
+  EXPECT_LT(out.result.pixelsSampled, out.result.pixelsTotal);
+  for (int y = 0; y < out.image.height(); ++y) {
+    for (int x = 0; x < out.image.width(); ++x) {
+      const float value = out.image.rgb(x, y).r;
+      EXPECT_TRUE(value == 0 || std::abs(value - 1) < 1e-5f) << value;
+    }
+  }
 }
 
 TEST(RenderLoop, RecordsDroppedSamplesSoThatTheyCanBeReplayed) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -514,6 +515,80 @@ TEST_F(Pbrt, WritesAValidImageOnInterrupt) {
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) ASSERT_EQ(image.rgb(x, y), Rgb(0.5f, 0.25f, 1)) << x << ' ' << y;
   }
+}
+
+TEST_F(Pbrt, WritesAValidImageWhenItsTerminalOrReaderGoes) {
+  folder_.write("endless.pbrt", kEndless);
+  pbrt("endless.pbrt", "timeout -s HUP 0.7");
+  ASSERT_TRUE(folder_.has("endless.exr"));
+  EXPECT_EQ(firstPixel("endless.exr"), Rgb(0.5f, 0.25f, 1));
+  std::filesystem::remove(folder_.path() / "endless.exr");
+  // Nobody reads what it says, as when Ctrl-C ends "| tee log" first.
+  pbrt("endless.pbrt 2>&1 | true", "timeout -s INT 0.7");
+  ASSERT_TRUE(folder_.has("endless.exr"));
+  EXPECT_EQ(firstPixel("endless.exr"), Rgb(0.5f, 0.25f, 1));
+}
+
+/// Inside a mirroring sphere with an opening: rays leave through it at once, or go round for ever.
+std::string mirrorSphere(const std::string& zmax) {
+  return "LookAt 0 0.1 0.2  0 0.1 1  0 1 0\nCamera \"perspective\" \"float fov\" 120\n"
+         "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"string filename\" \"m.exr\"\n"
+         "Sampler \"random\" \"integer pixelsamples\" 4\n"
+         "Integrator \"path\" \"integer maxdepth\" 1000000000 \"float rrthreshold\" 0\nWorldBegin\n"
+         "LightSource \"infinite\" \"rgb L\" [ 0.5 0.25 1 ]\nMaterial \"mirror\" \"rgb Kr\" [ 1 1 1 ]\n"
+         "Shape \"sphere\" " +
+         zmax + "\nWorldEnd\n";
+}
+
+double secondsOf(const std::function<void()>& run) {
+  const auto start = std::chrono::steady_clock::now();
+  run();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+TEST_F(Pbrt, LeavesPathsThatDoNotEndWhenTheTimeIsUp) {
+  folder_.write("open.pbrt", mirrorSphere("\"float zmax\" 0.9"));
+  ProcessResult r;
+  EXPECT_LT(secondsOf([&] { r = pbrt("--nthreads 1 --time 0.4 open.pbrt"); }), 2.5);
+  EXPECT_EQ(r.status, 0) << r.output;
+  EXPECT_NE(r.output.find("1 paths did not end within 0.1 s of the stop and were left"), std::string::npos)
+      << r.output;
+  EXPECT_NE(r.output.find("of 64 pixels have no sample of their own"), std::string::npos) << r.output;
+  const Image image = readImage(folder_.path() / "m.exr");
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      EXPECT_TRUE(image.rgb(x, y) == Rgb(0) || image.rgb(x, y) == Rgb(0.5f, 0.25f, 1)) << x << ' ' << y;
+    }
+  }
+}
+
+TEST_F(Pbrt, WritesNoImageWhenItIsStoppedBeforeTheFirstSample) {
+  folder_.write("closed.pbrt", mirrorSphere(""));
+  ProcessResult r;
+  EXPECT_LT(secondsOf([&] { r = pbrt("--time 0.3 closed.pbrt"); }), 2.5);
+  EXPECT_EQ(r.status, 1) << r.output;
+  EXPECT_NE(r.output.find("pbrt: error: --time 0.3: stopped after 0."), std::string::npos) << r.output;
+  EXPECT_NE(r.output.find("before the first sample; no image is written"), std::string::npos) << r.output;
+  EXPECT_FALSE(folder_.has("m.exr"));
+}
+
+TEST_F(Pbrt, TimeCountsFromTheStartOfTheProgram) {
+  // Subdivided to the limit: many seconds of construction.
+  folder_.write(
+      "loop.pbrt",
+      "WorldBegin LightSource \"infinite\" Shape \"loopsubdiv\" \"integer levels\" 11 \"integer indices\" "
+      "[0 2 1 0 1 3 1 2 3 2 0 3] \"point P\" [0 0 0 1 0 0 0 1 0 0 0 1] WorldEnd");
+  ProcessResult r;
+  EXPECT_LT(secondsOf([&] { r = pbrt("--time 0.3 loop.pbrt"); }), 3);
+  EXPECT_EQ(r.status, 1) << r.output;
+  EXPECT_NE(r.output.find("before the first sample; no image is written"), std::string::npos) << r.output;
+  r = pbrt("loop.pbrt", "timeout -s INT 0.3");
+  EXPECT_NE(r.output.find("stopping before the first sample"), std::string::npos) << r.output;
+  EXPECT_EQ(folder_.fileCount(), 1u) << "nothing half-written";
+  // A pipe that stays silent.
+  EXPECT_LT(secondsOf([&] { r = pbrt("--time 0.3 -", "(echo WorldBegin; sleep 1.5) |"); }), 5);
+  EXPECT_EQ(r.status, 1) << r.output;
+  EXPECT_NE(r.output.find("while the scene was read; no image is written"), std::string::npos) << r.output;
 }
 
 TEST_F(Pbrt, QuietSaysNothingWhenAllIsWell) {
