@@ -12,10 +12,12 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <new>
 #include <sstream>
 #include <type_traits>
 
 #include "base/diagnostics.h"
+#include "base/interruption.h"
 
 namespace pbrtmedia {
 namespace {
@@ -27,8 +29,8 @@ constexpr std::uint64_t kFileMagic = 0x324244566f6e614e;  // "NanoVDB2", of newe
 constexpr std::uint64_t kOpenVdbMagic = 0x56444220;       // eight bytes at the start of a .vdb file
 constexpr std::uint32_t kMajorVersion = 32;
 constexpr std::uint32_t kMaxNameSize = 1 << 16;
-/// No deflate or blosc stream grows by more; so a small file cannot ask for all the memory there is.
-constexpr std::uint64_t kMaxDeflateRatio = 1032, kMaxBloscRatio = 1 << 16;
+/// No deflate stream grows by more.
+constexpr std::uint64_t kMaxDeflateRatio = 1032;
 /// Blosc streams hold at most this much each.
 constexpr std::uint64_t kBloscChunk = std::uint64_t{1} << 30;
 
@@ -95,10 +97,43 @@ std::string describe(const NanoVdbGridInfo& g) {
 
 /// False when the stream is corrupt or does not unpack to exactly the size of `to`.
 bool unzip(std::span<const std::byte> from, std::span<std::byte> to) {
-  uLongf size = to.size();
-  const int status = uncompress(reinterpret_cast<Bytef*>(to.data()), &size,
-                                reinterpret_cast<const Bytef*>(from.data()), static_cast<uLong>(from.size()));
-  return status == Z_OK && size == to.size();
+  constexpr std::size_t kStep = std::size_t{16} << 20;  // bytes between looks at the time
+  z_stream z{};
+  if (inflateInit(&z) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&z, inflateEnd);
+  for (;;) {
+    leaveIfStopped();
+    // zlib's interface is older than const.
+    z.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(from.data()));
+    z.avail_in = static_cast<uInt>(std::min(from.size(), kStep));
+    z.next_out = reinterpret_cast<Bytef*>(to.data());
+    z.avail_out = static_cast<uInt>(std::min(to.size(), kStep));
+    const uInt offered = z.avail_in, room = z.avail_out;
+    const int status = inflate(&z, Z_NO_FLUSH);
+    const std::size_t read = offered - z.avail_in, written = room - z.avail_out;
+    from = from.subspan(read);
+    to = to.subspan(written);
+    if (status == Z_STREAM_END) return to.empty();
+    if (status != Z_OK || read + written == 0) return false;
+  }
+}
+
+/// What the bytes of blosc streams can grow to at most, by the compressor that the head of the first names.
+std::uint64_t largestBloscRatio(std::span<const std::byte> stored) {
+  constexpr std::size_t kFlagsAt = 8 + 2;  // after the size of the stream, its version and that of its format
+  constexpr std::uint64_t kRun = 256;  // LZ4, blosclz: one byte prolongs a match by 255; snappy: by 64 for 3
+  constexpr std::uint64_t kZstd = std::uint64_t{1} << 16;  // a block of 128 KiB in some bytes
+  if (stored.size() <= kFlagsAt) return 1;
+  switch (std::to_integer<unsigned>(stored[kFlagsAt]) >> 5) {
+    case 0:
+    case 1:
+    case 2:
+      return kRun;
+    case 3:
+      return kMaxDeflateRatio;
+    default:
+      return kZstd;
+  }
 }
 
 #if PBRT_MEDIA_HAS_BLOSC
@@ -198,7 +233,7 @@ NanoVdbGridBytes NanoVdbFile::bytes(std::size_t index) const {
       corrupt(std::to_string(stored.size()) + " bytes are stored, " + std::to_string(info.bytes) +
               " are announced");
     }
-    return {{}, stored};
+    return {nullptr, stored};
   }
 #if !PBRT_MEDIA_HAS_BLOSC
   if (place.codec == 2) {
@@ -207,19 +242,28 @@ NanoVdbGridBytes NanoVdbFile::bytes(std::size_t index) const {
            "none or zip");
   }
 #endif
-  const std::uint64_t ratio = place.codec == 1 ? kMaxDeflateRatio : kMaxBloscRatio;
+  const std::uint64_t ratio = place.codec == 1 ? kMaxDeflateRatio : largestBloscRatio(stored);
   if (info.bytes / ratio > stored.size()) {
     corrupt(std::to_string(stored.size()) + " bytes cannot unpack to " + std::to_string(info.bytes));
   }
+  if (info.bytes > mostUnpacked(stored.size())) {
+    refuse("grid \"" + info.name + "\": its " + std::to_string(stored.size()) + " bytes would unpack to " +
+           std::to_string(info.bytes) + ", expected at most " + std::to_string(mostUnpacked(stored.size())) +
+           " for this size; write it with codec none if it is what it should be");
+  }
   NanoVdbGridBytes result;
-  result.unpacked.resize(static_cast<std::size_t>(info.bytes));
+  const auto size = static_cast<std::size_t>(info.bytes);
+  result.unpacked = std::make_unique_for_overwrite<std::byte[]>(size);
+  const std::span<std::byte> whole(result.unpacked.get(), size);
+  result.bytes = whole;
   // A zip grid is one stream; a blosc grid one for each GiB. Each is preceded by its packed size.
-  for (std::span<std::byte> rest = result.unpacked; !rest.empty();) {
+  for (std::span<std::byte> rest = whole; !rest.empty();) {
+    leaveIfStopped();
     if (stored.size() < 8) corrupt("its data ends early");
-    const auto size = valueAt<std::uint64_t>(stored, 0);
+    const auto packedSize = valueAt<std::uint64_t>(stored, 0);
     stored = stored.subspan(8);
-    if (size > stored.size()) corrupt("its data ends early");
-    const auto packed = stored.first(static_cast<std::size_t>(size));
+    if (packedSize > stored.size()) corrupt("its data ends early");
+    const auto packed = stored.first(static_cast<std::size_t>(packedSize));
     stored = stored.subspan(packed.size());
     const auto part = rest.first(static_cast<std::size_t>(
         place.codec == 1 ? rest.size() : std::min<std::uint64_t>(rest.size(), kBloscChunk)));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,9 +32,10 @@ struct NanoVdbGridInfo {
 
 /// The bytes of one grid: in the file itself, or unpacked. Borrows from the NanoVdbFile.
 struct NanoVdbGridBytes {
-  std::vector<std::byte> unpacked;
-  std::span<const std::byte> inFile;
-  std::span<const std::byte> view() const { return unpacked.empty() ? inFile : std::span(unpacked); }
+  /// Not initialised, so that memory is taken as far as bytes are unpacked. Null: in the file.
+  std::unique_ptr<std::byte[]> unpacked;
+  std::span<const std::byte> bytes;
+  std::span<const std::byte> view() const { return bytes; }
 };
 
 /// An .nvdb file: one or more segments, each with a header, a directory and the bytes of its grids. Reads the
@@ -46,8 +48,9 @@ class NanoVdbFile {
 
   const std::vector<NanoVdbGridInfo>& grids() const { return grids_; }
   std::vector<GridCandidate> candidates() const;
-  /// The bytes of grid number `index`. Throws SceneError at the file when they are corrupt or packed by a
-  /// codec that this build does not have.
+  /// The bytes of grid number `index`. Throws SceneError at the file when they are corrupt, would unpack to
+  /// more than their codec can or `mostUnpacked` allows, or are packed by a codec that this build does not
+  /// have.
   NanoVdbGridBytes bytes(std::size_t index) const;
   /// Throws SceneError at the file.
   [[noreturn]] void refuse(const std::string& message) const;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 
+#include "base/interruption.h"
 #include "fields/nano_vdb_nodes.h"
 #endif
 
@@ -118,6 +119,7 @@ class Reader {
     if (const auto at = inTree(tile.origin)) out_.tree.setRootCube(*at, value);
   }
   void fillUpper(const NanoVdbNode& node) {
+    leaveIfStopped();
     if (!inTree(node.origin)) return;
     const NanoVdbCopy<typename Nodes::Upper> upper(bytes_.subspan(node.offset));
     for (std::uint32_t n = 0; n < 32 * 32 * 32; ++n) {
@@ -128,6 +130,7 @@ class Reader {
     }
   }
   void fillLower(const NanoVdbNode& node) {
+    leaveIfStopped();
     if (!inTree(node.origin)) return;
     const NanoVdbCopy<typename Nodes::Lower> lower(bytes_.subspan(node.offset));
     for (std::uint32_t n = 0; n < 16 * 16 * 16; ++n) {
@@ -143,6 +146,7 @@ class Reader {
   }
 
   void fillLeaf(const NanoVdbNode& node) {
+    leaveIfStopped();
     const auto at = inTree(node.origin);
     if (!at) return;
     const NanoVdbCopy<typename Nodes::Leaf> leaf(bytes_.subspan(node.offset));

@@ -11,6 +11,7 @@
 
 #include "base/diagnostics.h"
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 
 namespace pbrtmedia {
 namespace {
@@ -65,6 +66,22 @@ Bounds2i grownBounds(const Bounds2i& pixels, Vector2f radius) {
           {high(pixels.max.x, radius.x), high(pixels.max.y, radius.y)}};
 }
 
+/// Before memory is taken: with more than the machine has, the system would end the program without a word.
+void checkMemory(const Bounds2i& pixels, Vector2f radius) {
+  const double width = pixels.width(), height = pixels.height();
+  const double sampleArea = (width + 2.0 * radius.x + 2) * (height + 2.0 * radius.y + 2);
+  const double bytes =
+      width * height * (sizeof(Film::Sums) + 2 * sizeof(Rgb)) + sampleArea * sizeof(SamplePass::Sample);
+  const auto most = static_cast<double>(machineMemoryBytes());
+  if (bytes <= most) return;
+  std::ostringstream text;
+  text
+      << pixels.width() << " x " << pixels.height() << " pixels under a filter of radius " << radius.x << ' '
+      << radius.y << " take " << bytes / 1e9 << " GB, more than the " << most / 1e9
+      << " GB of this machine; render parts with \"cropwindow\", and put them together with imgtool assemble";
+  fail(text.str());
+}
+
 std::vector<float> tabulate(const Filter& filter) {
   std::vector<float> table;
   table.reserve(kTableWidth * kTableWidth);
@@ -90,6 +107,7 @@ Film::Film(const Settings& settings, std::unique_ptr<Filter> filter)
   CHECK(filter_ != nullptr);
   const Vector2f radius = filter_->radius();
   pixelBounds_ = croppedPixels(settings_);
+  checkMemory(pixelBounds_, radius);
   sampleBounds_ = grownBounds(pixelBounds_, radius);
   filterTable_ = tabulate(*filter_);
   // A sample at offset o in [0, 1) of the pixel k away lies k + o - 1/2 from the centre.

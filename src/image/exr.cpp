@@ -12,6 +12,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "base/interruption.h"
 #include "image/codecs.h"
 #include "image/decode_error.h"
 #include "image/exr_header_check.h"
@@ -58,6 +59,12 @@ void copyHeader(const Imf::Header& header, Image& image) {
   }
 }
 
+/// Rows to read at once: some 16 MB, in whole blocks of lines of every method of compression.
+std::int64_t rowsPerStep(std::size_t rowBytes) {
+  constexpr std::size_t kBytes = std::size_t{16} << 20, kBlock = 256;
+  return static_cast<std::int64_t>((kBytes / rowBytes / kBlock + 1) * kBlock);
+}
+
 Image readChannels(Imf::InputFile& file) {
   const Imf::Header& header = file.header();
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
@@ -66,16 +73,26 @@ Image readChannels(Imf::InputFile& file) {
     }
   }
   const Bounds2i window = toBounds(header.dataWindow());
-  Image image(window.width(), window.height(), orderedChannels(header.channels()));
-  const std::size_t pixelBytes = image.channelCount() * sizeof(float);
+  const std::vector<std::string> channels = orderedChannels(header.channels());
+  const std::size_t pixelBytes = channels.size() * sizeof(float);
+  const std::size_t rowFloats = channels.size() * static_cast<std::size_t>(window.width());
+  std::vector<float> data;
+  data.reserve(rowFloats * static_cast<std::size_t>(window.height()));
   Imf::FrameBuffer frame;
-  for (std::size_t c = 0; c < image.channelCount(); ++c) {
-    char* base = originOf(image.data().data() + c, window, pixelBytes);
-    frame.insert(image.channels()[c], Imf::Slice(Imf::FLOAT, base, pixelBytes,
-                                                 pixelBytes * static_cast<std::size_t>(window.width())));
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    char* base = originOf(data.data() + c, window, pixelBytes);
+    frame.insert(channels[c], Imf::Slice(Imf::FLOAT, base, pixelBytes, rowFloats * sizeof(float)));
   }
   file.setFrameBuffer(frame);
-  file.readPixels(window.min.y, window.max.y - 1);
+  // In steps: memory is taken as far as the file has data.
+  const std::int64_t rows = rowsPerStep(rowFloats * sizeof(float));
+  for (std::int64_t y = window.min.y; y < window.max.y; y += rows) {
+    leaveIfStopped();
+    const auto end = static_cast<int>(std::min<std::int64_t>(y + rows, window.max.y));
+    data.resize(rowFloats * static_cast<std::size_t>(end - window.min.y));
+    file.readPixels(static_cast<int>(y), end - 1);
+  }
+  Image image(window.width(), window.height(), channels, std::move(data));
   copyHeader(header, image);
   return image;
 }

@@ -14,6 +14,7 @@
 
 #include "image/exr_attribute_check.h"
 #include "image/exr_stream.h"
+#include "image/memory_limit.h"
 
 namespace pbrtmedia {
 namespace {
@@ -68,10 +69,20 @@ void checkHeader(const Imf::Header& header, std::uint64_t fileSize) {
     throw std::runtime_error("the header claims " + std::to_string(width) + " x " + std::to_string(height) +
                              " pixels, more than " + std::to_string(fileSize) + " bytes can hold");
   }
+  std::uint64_t channels = 0;
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channels;
+  const std::string excess =
+      excessOf(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height), channels, fileSize);
+  if (!excess.empty()) throw std::runtime_error(excess);
   if (!header.hasTileDescription()) return;
   const Imf::TileDescription& tiles = header.tileDescription();
   const std::uint64_t tilePixels = std::uint64_t{tiles.xSize} * tiles.ySize;
-  if (tilePixels == 0 || tilePixels > budget / perPixel) throw std::runtime_error("the tiles are too large");
+  // A tile is unpacked whole, however little of it the image covers.
+  if (tilePixels == 0 || tilePixels > budget / perPixel ||
+      tilePixels > mostImageMemory(fileSize) / (channels * sizeof(float))) {
+    throw std::runtime_error("the tiles are too large: " + std::to_string(tiles.xSize) + " x " +
+                             std::to_string(tiles.ySize) + " pixels");
+  }
   const auto count = [](std::int64_t side, std::uint64_t tile) {
     return (static_cast<std::uint64_t>(side) + tile - 1) / tile;
   };

@@ -56,12 +56,18 @@ std::string encode(ImageFormat format, const Image& image, const WriteOptions& o
 }  // namespace
 
 Image::Image(int width, int height, std::vector<std::string> channels)
+    : Image(width, height, channels, std::vector<float>(checkedCount(width, height, channels.size()))) {}
+
+Image::Image(int width, int height, std::vector<std::string> channels, std::vector<float> data)
     : dataWindow{{0, 0}, {width, height}},
       displayWindow{{0, 0}, {width, height}},
       width_(width),
       height_(height),
-      channels_(std::move(channels)) {
-  data_.resize(checkedCount(width, height, channels_.size()));
+      channels_(std::move(channels)),
+      data_(std::move(data)) {
+  if (data_.size() != checkedCount(width, height, channels_.size())) {
+    throw std::invalid_argument("an image of another size than its data");
+  }
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     if (std::count(channels_.begin(), channels_.end(), channels_[i]) != 1) {
       throw std::invalid_argument("an image cannot have two channels \"" + channels_[i] + "\"");

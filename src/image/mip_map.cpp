@@ -9,6 +9,7 @@
 #include <string>
 #include <type_traits>
 
+#include "base/interruption.h"
 #include "base/math.h"
 
 namespace pbrtmedia {
@@ -98,6 +99,7 @@ std::vector<T> resampleToPowersOfTwo(const std::vector<T>& in, int& width, int& 
   const std::vector<ResampleTap> tapsX = resampleTaps(width, newWidth),
                                  tapsY = resampleTaps(height, newHeight);
   for (int y = 0; y < height; ++y) {
+    leaveIfStopped();
     for (int x = 0; x < newWidth; ++x) {
       wide[at(newWidth, x, y)] = width == newWidth
                                      ? in[at(width, x, y)]
@@ -107,6 +109,7 @@ std::vector<T> resampleToPowersOfTwo(const std::vector<T>& in, int& width, int& 
   }
   std::vector<T> out(static_cast<std::size_t>(newWidth) * static_cast<std::size_t>(newHeight));
   for (int y = 0; y < newHeight; ++y) {
+    leaveIfStopped();
     for (int x = 0; x < newWidth; ++x) {
       const T v = height == newHeight ? wide[at(newWidth, x, y)]
                                       : resampled<T>(tapsY[static_cast<std::size_t>(y)], height, wrap,
@@ -143,6 +146,7 @@ MipMap<T>::MipMap(int width, int height, std::vector<T> texels, WrapMode wrap) :
     Level coarse{std::max(1, fine.width / 2), std::max(1, fine.height / 2), {}};
     coarse.texels.reserve(at(coarse.width, 0, coarse.height));
     for (int y = 0; y < coarse.height; ++y) {
+      leaveIfStopped();
       for (int x = 0; x < coarse.width; ++x) {
         // A side of one texel is its own neighbour. Pairs first: exact for constants.
         const int x0 = fine.width > 1 ? 2 * x : 0, x1 = fine.width > 1 ? 2 * x + 1 : 0;

@@ -6,10 +6,12 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
 
 #include "image/codecs.h"
 #include "image/decode_error.h"
+#include "image/memory_limit.h"
 
 // libpng reports errors by longjmp. Each function here that calls setjmp holds nothing with a destructor, and
 // all memory lives in its callers.
@@ -217,9 +219,13 @@ Image decodePng(std::span<const std::byte> bytes, const std::string& name) {
                        std::to_string(bytes.size()) + " bytes can hold");
   }
   if (!reader.expand()) failFile(name, reader.message());
+  const std::string excess =
+      excessOf(reader.width(), reader.height(), static_cast<std::uint64_t>(reader.channels()), bytes.size());
+  if (!excess.empty()) failFile(name, "PNG: " + excess);
   const std::size_t rowBytes = reader.rowBytes();
-  std::vector<unsigned char> pixels(rowBytes * reader.height());
-  if (!reader.readRows(pixels.data(), rowBytes)) failFile(name, reader.message());
+  // Not initialised: memory is taken as far as the file has data.
+  const auto pixels = std::make_unique_for_overwrite<unsigned char[]>(rowBytes * reader.height());
+  if (!reader.readRows(pixels.get(), rowBytes)) failFile(name, reader.message());
 
   Image image(static_cast<int>(reader.width()), static_cast<int>(reader.height()),
               channelNames(reader.channels()));

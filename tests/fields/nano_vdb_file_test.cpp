@@ -200,5 +200,27 @@ TEST_F(NanoVdbFileTest, RefusesNodesOutsideTheGridAndMoreThanAnnounced) {
   expectComplaint(zip, "cannot unpack to");
 }
 
+TEST_F(NanoVdbFileTest, TakesMemoryInProportionToTheFile) {
+  const std::string plain = bytesOf(kBall);
+  const auto claiming = [&](std::uint16_t codec, std::uint64_t unpacked, int bloscFlags) {
+    std::string bytes = plain;
+    std::memcpy(bytes.data() + 14, &codec, sizeof codec);
+    std::memcpy(bytes.data() + 16, &unpacked, sizeof unpacked);
+    const std::size_t stored = 16 + 176 + kBall.name.size() + 1;
+    const std::uint64_t packed = bytes.size() - stored - 8;
+    std::memcpy(bytes.data() + stored, &packed, sizeof packed);
+    bytes[stored + 8 + 2] = static_cast<char>(bloscFlags);
+    return bytes;
+  };
+  constexpr std::uint64_t kGigabytes = std::uint64_t{3211264000};
+  if (test::hasBlosc()) {
+    expectComplaint(claiming(2, kGigabytes, 1 << 5), "bytes cannot unpack to 3211264000");  // LZ4
+    expectComplaint(claiming(2, kGigabytes, 4 << 5), "expected at most 21");                // zstd could
+    expectComplaint(claiming(2, 20000000, 1 << 5), "its blosc data cannot be unpacked");
+  }
+  expectComplaint(claiming(1, kGigabytes, 0), "cannot unpack to");
+  expectComplaint(claiming(1, 20000000, 0), "zip data cannot be unpacked");
+}
+
 }  // namespace
 }  // namespace pbrtmedia

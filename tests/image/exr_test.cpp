@@ -177,6 +177,57 @@ TEST(Exr, RefusesGiantSizesAtOnce) {
   }
 }
 
+/// A picture of one colour, as a file of one part.
+std::string constantExr(int side, Imf::Compression compression) {
+  ExrMemoryOutput stream;
+  {
+    const std::vector<half> row(3 * static_cast<std::size_t>(side), half(0.25f));
+    Imf::Header header(side, side);
+    header.compression() = compression;
+    Imf::FrameBuffer frame;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const char* const name = c == 0 ? "R" : c == 1 ? "G" : "B";
+      header.channels().insert(name, Imf::Channel(Imf::HALF));
+      char* base = const_cast<char*>(reinterpret_cast<const char*>(row.data() + c));
+      frame.insert(name, Imf::Slice(Imf::HALF, base, 3 * sizeof(half), 0));
+    }
+    Imf::OutputFile file(stream, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(side);
+  }
+  return stream.take();
+}
+
+TEST(Exr, ReadsWhatPacksToTheLeastThatEveryMethodCan) {
+  for (const Imf::Compression compression :
+       {Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION,
+        Imf::PXR24_COMPRESSION, Imf::B44A_COMPRESSION, Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION}) {
+    SCOPED_TRACE(static_cast<int>(compression));
+    constexpr int kSide = 512;
+    const Image image = decodeExr(asBytes(constantExr(kSide, compression)), "grey.exr");
+    EXPECT_EQ(image.width(), kSide);
+    for (const int at : {0, 255, 256, kSide - 1}) EXPECT_NEAR(image.rgb(at, at).g, 0.25f, 1e-3f);
+  }
+}
+
+TEST(Exr, TakesMemoryInProportionToTheFile) {
+  using namespace std::string_literals;
+  std::string bytes = constantExr(64, Imf::DWAA_COMPRESSION);
+  bytes.resize(33000, '\0');
+  const std::size_t window = attribute(bytes, "dataWindow\0box2i\0"s);
+  const auto withSide = [&](unsigned side) {
+    std::string changed = bytes;
+    setWord(changed, window + 8, side - 1, 4, false);
+    setWord(changed, window + 12, side - 1, 4, false);
+    return changed;
+  };
+  expectRefused(
+      ImageFormat::Exr, withSide(16384),
+      "the header claims 16384 x 16384 pixels of 3 channels, 3219 MB in memory; expected at most 672 MB");
+  // Below the limit memory is taken as data comes: here none does.
+  expectRefused(ImageFormat::Exr, withSide(7000), "OpenEXR: ");
+}
+
 TEST(Exr, RefusesAttributesLongerThanTheFile) {
   using namespace std::string_literals;
   Image image = patternImage(3, 2);
