@@ -3,13 +3,17 @@
 
 #include <algorithm>
 
+#include "base/interruption.h"
 #include "construct/light_messages.h"
 #include "construct/plugins.h"
 
 namespace pbrtmedia {
 namespace {
 
-constexpr std::uint64_t kMaxInstances = 1u << 28;  // flattened placements; far more than memory has room for
+/// Objects within objects are placed one by one, about a kilobyte each. So many placements are always
+/// allowed, and so many for each ObjectInstance of the scene: memory follows what is written in the file.
+constexpr std::uint64_t kFreePlacements = std::uint64_t{1} << 20, kPlacementsPerInstance = 64;
+constexpr std::uint64_t kCountless = std::uint64_t{1} << 60;  ///< counts saturate here
 
 constexpr std::uint32_t kMaxDepth = 1000;  // objects within objects
 
@@ -51,6 +55,7 @@ void WorldBuilder::handOver(const Diagnostics& messages, bool isUsed, std::strin
 
 void WorldBuilder::readShapes() {
   for (ShapeDescription& shape : scene_.shapes) {
+    leaveIfStopped();
     if (isUsed(shape)) {
       shapes_.push_back(readShape(shape, diagnostics_));
       continue;
@@ -100,7 +105,6 @@ void WorldBuilder::markUsedObjects() {
   for (const InstanceDescription& instance : scene_.instances) {
     if (instance.parent == kNone) pending.push_back(instance.object);
   }
-  std::uint64_t placements = 0;
   while (!pending.empty()) {
     const std::uint32_t object = pending.back();
     pending.pop_back();
@@ -109,20 +113,44 @@ void WorldBuilder::markUsedObjects() {
     for (const std::uint32_t inner : scene_.objects[object].instances)
       pending.push_back(scene_.instances[inner].object);
   }
+  limitPlacements();
+}
+
+void WorldBuilder::limitPlacements() {
   for (const InstanceDescription& instance : scene_.instances) {
-    if (instance.parent != kNone) continue;
     const ObjectDescription& object = scene_.objects[instance.object];
-    placements += std::min(object.placedShapes, kMaxInstances + 1);
-    if (object.depth > kMaxDepth) {
-      diagnostics_.error(instance.location, "ObjectInstance: \"" + object.name + "\" nests objects " +
-                                                std::to_string(object.depth) + " deep, expected at most " +
-                                                std::to_string(kMaxDepth));
+    if (instance.parent != kNone || object.depth <= kMaxDepth) continue;
+    diagnostics_.error(instance.location, "ObjectInstance: \"" + object.name + "\" nests objects " +
+                                              std::to_string(object.depth) + " deep, expected at most " +
+                                              std::to_string(kMaxDepth));
+    return;
+  }
+  const std::uint64_t most = kFreePlacements + kPlacementsPerInstance * scene_.instances.size();
+  // An object is complete before it is placed, so those within come first.
+  std::vector<std::uint64_t> placed(scene_.objects.size(), 0);
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    if (scene_.objects[i].placedShapes == 0) continue;
+    placed[i] = 1;
+    for (const std::uint32_t shape : scene_.objects[i].shapes) {
+      placed[i] += scene_.shapes[shape].ctm->isAnimated() ? 1 : 0;  // each an instance of its own
+    }
+    for (const std::uint32_t inner : scene_.objects[i].instances) {
+      placed[i] = std::min(placed[i] + placed[scene_.instances[inner].object], kCountless);
     }
   }
-  if (placements > kMaxInstances) {
-    diagnostics_.error(scene_.worldEnd, "nested objects multiply to " + std::to_string(placements) +
-                                            " placed shapes, expected at most " +
-                                            std::to_string(kMaxInstances));
+  std::uint64_t placements = 0;
+  for (const InstanceDescription& instance : scene_.instances) {
+    if (instance.parent != kNone) continue;
+    placements += placed[instance.object];
+    if (placements <= most) continue;
+    diagnostics_.error(instance.location, "ObjectInstance \"" + scene_.objects[instance.object].name +
+                                              "\": nested objects multiply to " + std::to_string(placements) +
+                                              (placements >= kCountless ? " or more" : "") +
+                                              " placed objects, expected at most " + std::to_string(most) +
+                                              " (" + std::to_string(kFreePlacements) + " and " +
+                                              std::to_string(kPlacementsPerInstance) +
+                                              " for each ObjectInstance of the scene)");
+    return;
   }
 }
 
@@ -154,6 +182,7 @@ void WorldBuilder::addAreaLights(const ShapeDescription& shape, Primitive& primi
 }
 
 std::optional<Primitive> WorldBuilder::buildPrimitive(std::size_t index, SceneBuilder& builder) {
+  leaveIfStopped();
   const ShapeDescription& shape = scene_.shapes[index];
   const ShapeRead& read = shapes_[index];
   Primitive primitive;
@@ -241,6 +270,7 @@ void WorldBuilder::placeInstance(SceneBuilder& builder, const InstanceDescriptio
         "seen, as in PBRT-v3");
     return;
   }
+  leaveIfStopped();
   builder.addInstance(
       objectNumber_[instance.object],
       AnimatedTransform(place.start, scene_.transformStartTime, place.end, scene_.transformEndTime));

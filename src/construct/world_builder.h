@@ -62,6 +62,7 @@ class WorldBuilder {
   void warnOfMediaThatStay();
   bool isOpaque(const ShapeDescription& shape) const;
   bool movesWith(const ShapeDescription& shape, const MediumUse& use) const;
+  void limitPlacements();
   void buildMedia(SceneBuilder& builder);
   /// Nothing for a shape whose file turns out to be broken.
   std::optional<Primitive> buildPrimitive(std::size_t shape, SceneBuilder& builder);

@@ -7,29 +7,33 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "base/interruption.h"
+
 namespace pbrtmedia {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr std::size_t kMaxTriangles = std::size_t{1} << 27;
+/// Some 2 GB while they are made.
+constexpr std::size_t kMaxTriangles = std::size_t{1} << 24;
 
 /// A triangle's edge from `from` to `to`; `opposite` is its third corner.
 struct HalfEdge {
   std::uint32_t from, to, opposite;
-  std::size_t triangle, corner;  ///< it starts at this corner of this triangle
+  std::uint32_t triangle, corner;  ///< it starts at this corner of this triangle
   auto key() const { return std::minmax(from, to); }
 };
 
 std::vector<HalfEdge> sortedHalfEdges(const std::vector<Triangle>& triangles) {
   std::vector<HalfEdge> edges;
   edges.reserve(3 * triangles.size());
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
       edges.push_back({triangles[i][k], triangles[i][(k + 1) % 3], triangles[i][(k + 2) % 3], i, k});
     }
   }
   std::ranges::sort(edges, [](const HalfEdge& a, const HalfEdge& b) {
+    leaveIfStopped();
     const auto ka = a.key(), kb = b.key();
     return ka != kb ? ka < kb : a.triangle < b.triangle;
   });
@@ -40,6 +44,7 @@ std::vector<HalfEdge> sortedHalfEdges(const std::vector<Triangle>& triangles) {
 template <class F>
 void forEachEdge(const std::vector<HalfEdge>& edges, F f) {
   for (std::size_t i = 0; i < edges.size();) {
+    leaveIfStopped();
     std::size_t end = i + 1;
     while (end < edges.size() && edges[end].key() == edges[i].key()) ++end;
     f(i, end);
@@ -128,6 +133,7 @@ std::vector<Wedge> sortedWedges(const std::vector<Triangle>& triangles) {
     for (std::size_t k = 0; k < 3; ++k) wedges.push_back({t[k], t[(k + 1) % 3], t[(k + 2) % 3]});
   }
   std::ranges::sort(wedges, [](const Wedge& a, const Wedge& b) {
+    leaveIfStopped();
     return std::tie(a.vertex, a.from) < std::tie(b.vertex, b.from);
   });
   return wedges;
@@ -210,8 +216,13 @@ std::vector<MeshProblem> validateLoop(const LoopSubdivisionParams& params) {
   if (params.levels < 0 || params.levels > LoopSubdivisionParams::kMaxLevels) {
     add("levels", "is " + std::to_string(params.levels) + ", expected 0 to " +
                       std::to_string(LoopSubdivisionParams::kMaxLevels));
-  } else if ((params.indices.size() / 3) << (2 * params.levels) > kMaxTriangles) {
-    add("levels", "would give more than " + std::to_string(kMaxTriangles) + " triangles");
+  } else if (const std::size_t count = (params.indices.size() / 3) << (2 * params.levels);
+             count > kMaxTriangles) {
+    int most = params.levels;
+    while (most > 0 && (params.indices.size() / 3) << (2 * most) > kMaxTriangles) --most;
+    add("levels", "is " + std::to_string(params.levels) + ", which gives " + std::to_string(count) +
+                      " triangles; expected at most " + std::to_string(kMaxTriangles) + ", so up to " +
+                      std::to_string(most) + " levels for this mesh");
   }
   if (std::ranges::any_of(problems, [](const auto& p) { return p.severity == Severity::Error; }))
     return problems;
@@ -285,6 +296,7 @@ TriangleMesh::Params subdivideLoop(const LoopSubdivisionParams& params) {
     const Vec3d n = limitNormal(s.positions[vertex], ring, around[vertex].isBoundary());
     const double size = length(n);
     // Clockwise side, as in PBRT-v3. Zero: the triangle's own normal is used.
+    leaveIfStopped();
     mesh.N.emplace_back(size > 0 ? -n / size : Vec3d{});
     i = end;
   }

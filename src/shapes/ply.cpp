@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/files.h"
+#include "base/interruption.h"
 #include "shapes/ply_header.h"
 
 namespace pbrtmedia {
@@ -188,6 +189,7 @@ class PlyBody {
   void skip(const PlyElement& element) {
     if (element.properties.empty()) return;
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      leaveIfStopped();
       for (const PlyProperty& property : element.properties) skipProperty(property);
     }
   }
@@ -216,6 +218,7 @@ class PlyBody {
     if (hasNormals) mesh_.N.reserve(count);
     if (hasUv) mesh_.uv.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
+      leaveIfStopped();
       std::array<float, 8> v{};
       for (std::size_t k = 0; k < slots.size(); ++k) {
         const PlyProperty& property = element.properties[k];
@@ -259,6 +262,7 @@ class PlyBody {
     mesh_.indices.reserve(3 * static_cast<std::size_t>(element.count));
     std::vector<int> polygon;
     for (std::uint64_t i = 0; i < element.count; ++i) {
+      leaveIfStopped();
       int faceIndex = 0;
       for (const PlyProperty& property : element.properties) {
         if (&property == corners) {

@@ -104,7 +104,9 @@ TEST(ConstructShape, TexturesCutWhereTheyAreZero) {
 
 TEST(ConstructShape, SaysWhatIsWrongAndWhere) {
   expectMistakes(
-      {{"Shape \"shpere\"", "Shape: unknown type \"shpere\"; did you mean \"sphere\"?", "t.pbrt:2:7",
+      {{kCage + "\"integer levels\" 12",
+        "which gives 67108864 triangles; expected at most 16777216, so up to 11 levels", ""},
+       {"Shape \"shpere\"", "Shape: unknown type \"shpere\"; did you mean \"sphere\"?", "t.pbrt:2:7",
         kTolerated},
        {"Shape \"curve\"", "unknown type \"curve\"", "t.pbrt:2:7", kTolerated},
        {"Shape \"sphere\" \"float radius\" 0", "radius: expected a finite number > 0, found 0", "t.pbrt:2:1",

@@ -71,7 +71,11 @@ TEST(ConstructWorld, ObjectsThatMultiplyAreRefusedAndEmptyOnesCostNothing) {
     }
     return world + instance("o" + std::to_string(depth));
   };
-  EXPECT_TRUE(with(doubling(kDisk, 60)).failsWith("nested objects multiply to"));
+  EXPECT_TRUE(
+      with(doubling(kDisk, 60))
+          .failsWith("ObjectInstance \"o60\": nested objects multiply to 1152921504606846976 or more"));
+  EXPECT_TRUE(
+      with(doubling(kDisk, 22)).failsWith("multiply to 8388607 placed objects, expected at most 1051456"));
   EXPECT_TRUE(with(doubling("", 60)).made.has_value()) << "2^60 times nothing";
   EXPECT_TRUE(with(doubling(kDisk, 4)).made.has_value());
   std::string chain = object("o0", kDisk);
