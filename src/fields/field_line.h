@@ -8,7 +8,9 @@
 #include <span>
 
 #include "base/bounds.h"
+#include "base/interruption.h"
 #include "base/segment.h"
+#include "fields/closer_bounds.h"
 #include "fields/density_line.h"
 #include "fields/lattice_walk.h"
 #include "fields/super_voxels.h"
@@ -62,17 +64,30 @@ class FieldLine {
   static constexpr bool hasProvenBounds() { return Field::kProvenBounds; }
   double tEntry() const { return tEntry_; }
   double length() const { return length_; }
-  float density(double s) const { return field_->density(line_.o + s * line_.d); }
+  /// Every loop over a line looks up or draws in vain: here it is left when the run is to stop.
+  float density(double s) const {
+    leaveIfAbandoned();
+    return field_->density(line_.o + s * line_.d);
+  }
   void densities(std::span<const double> s, std::span<float> out) const {
+    leaveIfAbandoned();
     if constexpr (BatchedField<Field>) {
       field_->densities(line_, s, out);
     } else {
       densitiesOneByOne(*this, s, out);
     }
   }
+  /// From now on `walk` tells closer bounds (fields/closer_bounds.h) wherever a cell's own bound times the
+  /// length crossed is above `column`. No effect on fields that cannot tell any.
+  void refineAbove(double column) { refinedColumn_ = column; }
+  bool isRefined() const { return refinedColumn_ < std::numeric_limits<double>::infinity(); }
   template <class Visit>
   void walk(Visit&& visit) const {
-    bounds_->walk(line_, length_, visit);
+    if (isRefined()) [[unlikely]] {
+      walkRefined(AnyVisit(visit));
+    } else {
+      bounds_->walk(line_, length_, visit);
+    }
   }
   template <class Visit>
   requires PiecewiseCubicField<Field>
@@ -89,6 +104,26 @@ class FieldLine {
   FieldLine(const Field& field, const SuperVoxels& bounds, const LocalLine& line, double length,
             double tEntry)
       : field_(&field), bounds_(&bounds), line_(line), length_(length), tEntry_(tEntry) {}
+
+  void walkRefined(const AnyVisit& visit) const {
+    const auto cells = [&](const auto& closer) {
+      bounds_->walk(line_, length_, [&](double sEnter, double sExit, const SuperVoxel& bound) {
+        return closer.isClose(bound, sExit - sEnter) ? visit(sEnter, sExit, bound)
+                                                     : closer.refine(sEnter, sExit, bound);
+      });
+    };
+    if constexpr (requires { field_->rangeOn(line_, 0.0, 1.0); }) {
+      const Vec3d size = bounds_->cellSize();
+      double cellLength = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < 3; ++i)
+        cellLength = std::min(cellLength, std::abs(size[i] * line_.inverse[i]));
+      cells(RangedBounds<Field>(*field_, line_, cellLength, refinedColumn_, visit));
+    } else if constexpr (Field::kProvenBounds && PiecewiseCubicField<Field>) {
+      cells(CubicBounds<Field>(*field_, line_, refinedColumn_, visit));
+    } else {
+      bounds_->walk(line_, length_, visit);
+    }
+  }
 
   /// Narrows [tMin, tMax] to the box; false when nothing is left. Random signs cost no branch here.
   static bool clipToSlabs(const Bounds3d& box, const LocalLine& line, double& tMin, double& tMax) {
@@ -115,6 +150,7 @@ class FieldLine {
   const SuperVoxels* bounds_;
   LocalLine line_;  ///< from the entry point, in local units; d in local units per t
   double length_, tEntry_;
+  double refinedColumn_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace pbrtmedia

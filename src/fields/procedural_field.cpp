@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "fields/procedural_field.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,6 +21,9 @@ float above(double v) {
 float below(double v) {
   return v > 0 ? std::max(0.0f, std::nextafter(static_cast<float>(v * (1 - 1e-6)), 0.0f)) : 0.0f;
 }
+
+/// Of points of a line, whichever way they are computed, relative to the coordinates.
+constexpr double kPointRounding = 0x1p-49;
 
 }  // namespace
 
@@ -88,6 +93,15 @@ std::optional<SuperVoxels> ProceduralField::superVoxels(const SuperVoxelLattice&
     }
     return SuperVoxel{above(upper), below(lower), static_cast<float>(middle / (kParts * kParts * kParts))};
   });
+}
+
+SuperVoxel ProceduralField::rangeOn(const LocalLine& line, double sEnter, double sExit) const {
+  const auto at = [&](double s) { return mediumFromLocal_.point(line.o + s * line.d); };
+  const Vec3d a = at(sEnter), b = at(sExit);
+  const Vec3d hair = kPointRounding * max(max(abs(a), abs(b)), abs(mediumFromLocal_.t));
+  const std::optional<Interval> range = params_.function->range({min(a, b) - hair, max(a, b) + hair});
+  CHECK(range) << "bounds of a function without ranges";
+  return {above(range->hi), below(range->lo)};
 }
 
 std::string ProceduralField::describe() const { return params_.function->describe(); }

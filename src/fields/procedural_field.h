@@ -47,6 +47,9 @@ class ProceduralField {
   /// parts' ranges, no exact one.
   std::optional<SuperVoxels> superVoxels(const SuperVoxelLattice& lattice) const;
   std::optional<SuperVoxels> superVoxels() const { return superVoxels(lattice({})); }
+  /// Bounds of the density on a stretch of a line (local units) and the box around it. Only for functions
+  /// that know ranges.
+  SuperVoxel rangeOn(const LocalLine& line, double sEnter, double sExit) const;
   static constexpr int kHalvings = 1;
   std::string describe() const;
   std::string complaint() const { return params_.function->complaint(); }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/interruption.h"
 #include "base/parallel.h"
 
 namespace pbrtmedia {
@@ -48,6 +49,7 @@ SuperVoxels::SuperVoxels(const SuperVoxelLattice& lattice,
     const auto j = static_cast<std::int64_t>(row) % shape.count.y;
     const auto k = static_cast<std::int64_t>(row) / shape.count.y;
     const auto first = static_cast<std::size_t>(shape.index(0, j, k));
+    leaveIfStopped();
     for (std::int64_t i = 0; i < shape.count.x; ++i) {
       const SuperVoxel cell = boundOf(i, j, k);
       bounds_[first + static_cast<std::size_t>(i)] = {cell.upper, cell.lower};

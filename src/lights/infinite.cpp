@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "base/interruption.h"
 #include "base/parallel.h"
 #include "base/warp.h"
 #include "lights/light_geometry.h"
@@ -30,6 +31,7 @@ std::vector<float> cellMeans(const LightMap& map, Rgb factor) {
   std::vector<float> alongRow(width * height), means(width * height);
   constexpr float kCentre = 0.75f, kSide = 0.125f;
   parallelFor(height, [&](std::size_t y) {
+    leaveIfStopped();
     std::vector<float> row(width);
     for (std::size_t x = 0; x < width; ++x) {
       const Rgb c = factor * map.texel(static_cast<int>(x), static_cast<int>(y));

@@ -92,7 +92,7 @@ class FieldMedium final : public Medium {
   /// A segment with a NaN gives NaN, so that the sample is dropped and counted where such are.
   Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const override {
     if (hasNaN(segment)) return kNaN;
-    const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
+    const auto line = lineOf(segment);
     if (!line) return Rgb(1.0f);
     explore(*line, rng, counters);
     return dimmed(*line, segment, rng, counters);
@@ -101,7 +101,7 @@ class FieldMedium final : public Medium {
   FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
                               RenderCounters& counters) const override {
     if (hasNaN(segment)) return {.weight = kNaN};
-    const auto line = FieldLine<Field>::clip(field_, bounds_, segment);
+    const auto line = lineOf(segment);
     if (!line) return {};
     explore(*line, rng, counters);
     // What only absorbs dims: its collisions would end paths and nothing else.
@@ -236,6 +236,21 @@ class FieldMedium final : public Medium {
            std::isnan(s.d.x + s.d.y + s.d.z);
   }
 
+  /// The line of a segment for estimators and samplers. Under an extinction so large that the bounds of cells
+  /// would cost millions of null collisions it tells closer ones.
+  std::optional<FieldLine<Field>> lineOf(const Segment& segment) const {
+    auto line = FieldLine<Field>::clip(field_, bounds_, segment);
+    if constexpr (Field::kProvenBounds) {
+      const double sigmaMax = sigmaT_.max(), column = line ? line->length() * double{bounds_.maximum()} : 0;
+      if (sigmaMax * column > kRefinedDepth) [[unlikely]]
+        line->refineAbove(kRefinedDepth / sigmaMax);
+    }
+    return line;
+  }
+  /// Optical depth of a bound above which it is refined: far above what is rendered every day, and some
+  /// tenths of a millisecond of null collisions.
+  static constexpr double kRefinedDepth = 0x1p14;
+
   /// Of a segment's length: rounding of the place where it leaves the medium.
   static constexpr double kEndSlack = 1e-12;
 
@@ -292,8 +307,28 @@ class FieldMedium final : public Medium {
 
   /// The transmittance of a segment.
   Rgb dimmed(const FieldLine<Field>& line, const Segment& segment, Rng& rng, RenderCounters& counters) const {
+    if (line.isRefined() && isExponential()) [[unlikely]]
+      return dimmedOrOpaque(line, segment, rng, counters);
     return sigmaT_.isGrey() ? estimate(line, segment, Channels<1>{sigmaT_.r}, rng, counters)
                             : estimate(line, segment, channelsOf(sigmaT_), rng, counters);
+  }
+
+  /// The same where some channels may be opaque: lower bounds alone leave nothing of them that a double could
+  /// tell from 0. Not every estimator ends on such lines.
+  Rgb dimmedOrOpaque(const FieldLine<Field>& line, const Segment& segment, Rng& rng,
+                     RenderCounters& counters) const {
+    constexpr double kOpaque = 746;  // exp of less is 0
+    double column = 0;
+    line.walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
+      column += bound.lower * (sExit - sEnter);
+      return !(sigmaT_.min() * column >= kOpaque);
+    });
+    Channels<3> clear = channelsOf(sigmaT_);
+    for (double& sigma : clear) sigma = sigma * column >= kOpaque ? 0 : sigma;
+    const Rgb through = clear == Channels<3>{} ? Rgb(1.0f) : estimate(line, segment, clear, rng, counters);
+    Rgb result;
+    for (std::size_t c = 0; c < 3; ++c) result[c] = sigmaT_[c] * column >= kOpaque ? 0 : through[c];
+    return result;
   }
 
   /// Learned bounds grow where somebody looks. While they still do, every segment looks once more, at a
