@@ -10,6 +10,7 @@
 
 #include "tools/run_tool.h"
 #include "vdb2pbrt/conversion.h"
+#include "vdb2pbrt/crash_guard.h"
 #include "vdb2pbrt/frame_names.h"
 
 namespace pbrtmedia {
@@ -167,5 +168,9 @@ int main(int argc, char** argv) {
   CLI::App app("Converts OpenVDB volumes for pbrt-media", "vdb2pbrt");
   pbrtmedia::Arguments arguments;
   pbrtmedia::addOptions(app, arguments);
-  return pbrtmedia::runTool(app, argc, argv, [&] { return pbrtmedia::run(arguments); });
+  return pbrtmedia::runTool(app, argc, argv, [&] {
+    return pbrtmedia::runGuarded(arguments.input, [&] {
+      return pbrtmedia::runProgram("vdb2pbrt", [&] { return pbrtmedia::run(arguments); });
+    });
+  });
 }
