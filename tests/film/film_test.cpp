@@ -136,6 +136,18 @@ TEST(FilmSettings, ThatMakeNoPictureAreErrors) {
   EXPECT_THROW(Film(s, box()), SceneError);
 }
 
+TEST(FilmSettings, ThatTakeMoreThanTheMachineHasAreErrorsBeforeMemoryIsTaken) {
+  try {
+    const Film film(sized(1 << 20, 1 << 20), box());
+    ADD_FAILURE() << "a film of 2^40 pixels";
+  } catch (const SceneError& e) {
+    EXPECT_NE(std::string(e.what()).find("1048576 x 1048576 pixels"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("render parts with \"cropwindow\""), std::string::npos) << e.what();
+  }
+  EXPECT_EQ(cropped(1 << 20, 1 << 20, 0, 0x1p-18f, 0, 0x1p-18f).pixelBounds().area(), 16)
+      << "a part is enough";
+}
+
 TEST(Film, WithTheDefaultBoxIsThePlainMeanOfAPixelsOwnSamples) {
   Film film(sized(2, 1), box());
   SamplePass pass(film.sampleBounds(), 2);

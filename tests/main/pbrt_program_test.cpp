@@ -562,6 +562,23 @@ TEST_F(Pbrt, LeavesPathsThatDoNotEndWhenTheTimeIsUp) {
   }
 }
 
+TEST_F(Pbrt, EndsPathsThatScatterWhereCoordinatesCannotTell) {
+  folder_.write(
+      "dense.pbrt",
+      "LookAt 0 0 -5  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10 "
+      "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" \"d.exr\" "
+      "Sampler \"random\" \"integer pixelsamples\" 1 "
+      "Integrator \"volpath\" \"integer maxdepth\" 1000000000 \"float rrthreshold\" 0 WorldBegin "
+      "LightSource \"infinite\" MakeNamedMedium \"m\" \"string type\" \"homogeneous\" "
+      "\"rgb sigma_s\" [1e20 1e20 1e20] \"rgb sigma_a\" [0 0 0] "
+      "MediumInterface \"m\" \"\" Material \"\" Shape \"sphere\" WorldEnd");
+  const ProcessResult r = pbrt("--stats d.json dense.pbrt");
+  EXPECT_EQ(r.status, 0) << r.output;
+  EXPECT_NE(r.output.find("4 paths were ended in media so dense"), std::string::npos) << r.output;
+  const auto stats = nlohmann::json::parse(folder_.read("d.json"));
+  EXPECT_EQ(stats.at("renders").at(0).at("counters").at("stuckPaths").get<int>(), 4);
+}
+
 TEST_F(Pbrt, WritesNoImageWhenItIsStoppedBeforeTheFirstSample) {
   folder_.write("closed.pbrt", mirrorSphere(""));
   ProcessResult r;
