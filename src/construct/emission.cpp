@@ -98,6 +98,15 @@ std::optional<GridField::Params> takeGrid(ParamReader& in, std::string_view name
   return taken;
 }
 
+/// Of two plans the one that is there, or both multiplied.
+EmissionPlan productOf(EmissionPlan a, EmissionPlan b) {
+  if (!a) return b;
+  if (!b) return a;
+  return [a = std::move(a), b = std::move(b)](const Transform& place) {
+    return makeProductPattern(a(place), b(place));
+  };
+}
+
 }  // namespace
 
 void requireExponentialLaw(ParamReader& in, const FieldMediumParams& p) {
@@ -125,53 +134,60 @@ EmissionPlan readGridEmission(const MediumInput& input, const GridField::Params&
   ParamReader& in = input.in;
   Diagnostics& building = input.building;
   constexpr ParamKind kKind = ParamKind::Float;
+  EmissionPlan temperatures, factors;
   if (usesTemperature(in, kKind, "temperature", in.has(kKind, "temperature"), p)) {
     const TemperatureMap map = readTemperatureMap(in);
-    std::optional<GridField::Params> taken = takeGrid(in, "temperature", grid);
-    if (!taken) return {};
-    return [taken = std::move(*taken), map, named = in.locationOf(kKind, "temperature"),
-            context = in.context(), &building](const Transform& place) {
-      return toldIfBlack(makeBlackbodyPattern(taken, map, place), kTooCold, named, context, building);
-    };
+    if (std::optional<GridField::Params> taken = takeGrid(in, "temperature", grid)) {
+      temperatures = [taken = *std::move(taken), map, named = in.locationOf(kKind, "temperature"),
+                      context = in.context(), &building](const Transform& place) {
+        return toldIfBlack(makeBlackbodyPattern(taken, map, place), kTooCold, named, context, building);
+      };
+    }
   }
-  if (in.floats("Lescale").size() <= 1) return {};
-  std::optional<GridField::Params> taken = takeGrid(in, "Lescale", grid);
-  if (!taken) return {};
-  return [taken = std::move(*taken), named = in.locationOf(kKind, "Lescale"), context = in.context(),
-          &building](const Transform& place) {
-    return toldIfBlack(makeScalePattern(taken, place), kNoFactor, named, context, building);
-  };
+  if (in.floats("Lescale").size() > 1) {
+    if (std::optional<GridField::Params> taken = takeGrid(in, "Lescale", grid)) {
+      factors = [taken = *std::move(taken), named = in.locationOf(kKind, "Lescale"), context = in.context(),
+                 &building](const Transform& place) {
+        return toldIfBlack(makeScalePattern(taken, place), kNoFactor, named, context, building);
+      };
+    }
+  }
+  return productOf(std::move(temperatures), std::move(factors));
 }
 
 EmissionPlan readNanoVdbEmission(const MediumInput& input, const std::filesystem::path& file,
                                  FieldMediumParams& p) {
   ParamReader& in = input.in;
   constexpr ParamKind kKind = ParamKind::String;
-  const std::optional<std::string> temperatures = in.optionalOwnString("temperaturegrid"),
-                                   factors = in.optionalOwnString("Legrid");
-  if (!temperatures && !factors) return {};
-  const std::string_view name = temperatures ? "temperaturegrid" : "Legrid";
-  if (temperatures && factors) {
-    in.error(kKind, "Legrid", "the radiance comes from temperatures already: one of them");
-  } else if (factors) {
-    requireRadiance(in, kKind, "Legrid");
+  const auto gridNamed = [&](std::string_view parameter, std::string_view whyBlack,
+                             const auto& make) -> EmissionPlan {
+    const std::optional<std::string> name = in.optionalOwnString(parameter);
+    if (!name) return {};
+    return [make, whyBlack, grid = NanoVdbField::Params{.file = file, .grid = *name, .map = {}},
+            named = in.locationOf(kKind, parameter), context = in.context(),
+            &building = input.building](const Transform& place) {
+      return builtAt(named, context, [&] {
+        NegativeDensities negatives;
+        NanoVdbField::Params params = grid;
+        params.map.negatives = &negatives;
+        std::shared_ptr<const EmissionPattern> pattern = make(params, place);
+        tellNegatives(negatives, grid.grid, named, context, building);
+        return toldIfBlack(std::move(pattern), whyBlack, named, context, building);
+      });
+    };
+  };
+  EmissionPlan temperatures;
+  if (usesTemperature(in, kKind, "temperaturegrid", in.has(kKind, "temperaturegrid"), p)) {
+    const TemperatureMap map = readTemperatureMap(in);
+    temperatures = gridNamed("temperaturegrid", kTooCold, [map](const auto& grid, const Transform& place) {
+      return makeBlackbodyPattern(grid, map, place);
+    });
   }
-  const bool isHot = usesTemperature(in, kKind, name, temperatures.has_value(), p);
-  const TemperatureMap map = isHot ? readTemperatureMap(in) : TemperatureMap{};
-  return
-      [grid = NanoVdbField::Params{.file = file, .grid = temperatures ? *temperatures : *factors, .map = {}},
-       map, isHot, named = in.locationOf(kKind, name), context = in.context(),
-       &building = input.building](const Transform& place) {
-        return builtAt(named, context, [&] {
-          NegativeDensities negatives;
-          NanoVdbField::Params params = grid;
-          params.map.negatives = &negatives;
-          std::shared_ptr<const EmissionPattern> pattern =
-              isHot ? makeBlackbodyPattern(params, map, place) : makeScalePattern(params, place);
-          tellNegatives(negatives, grid.grid, named, context, building);
-          return toldIfBlack(std::move(pattern), isHot ? kTooCold : kNoFactor, named, context, building);
-        });
-      };
+  EmissionPlan factors = gridNamed("Legrid", kNoFactor, [](const auto& grid, const Transform& place) {
+    return makeScalePattern(grid, place);
+  });
+  if (factors) requireRadiance(in, kKind, "Legrid");
+  return productOf(std::move(temperatures), std::move(factors));
 }
 
 }  // namespace pbrtmedia

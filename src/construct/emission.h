@@ -22,9 +22,10 @@ void requireExponentialLaw(ParamReader& in, const FieldMediumParams& p);
 /// Makes the pattern of an emission, given the medium's place. Empty: there is none.
 using EmissionPlan = std::function<std::shared_ptr<const EmissionPattern>(const Transform& worldFromMedium)>;
 
-/// The grids beside: "Lescale" or "temperature" for each sample of `grid`, whose density is not needed.
+/// The grids beside: "Lescale" or "temperature" for each sample of `grid`, whose density is not needed; both
+/// are multiplied.
 EmissionPlan readGridEmission(const MediumInput& input, const GridField::Params& grid, FieldMediumParams& p);
-/// "Legrid" or "temperaturegrid" of the .nvdb file.
+/// "Legrid" or "temperaturegrid" of the .nvdb file; both are multiplied.
 EmissionPlan readNanoVdbEmission(const MediumInput& input, const std::filesystem::path& file,
                                  FieldMediumParams& p);
 

@@ -81,6 +81,25 @@ class FieldPattern final : public EmissionPattern {
   Curve curve_;
 };
 
+class ProductPattern final : public EmissionPattern {
+ public:
+  ProductPattern(std::shared_ptr<const EmissionPattern> a, std::shared_ptr<const EmissionPattern> b)
+      : a_(std::move(a)), b_(std::move(b)) {}
+  Rgb at(Vec3d p) const override {
+    const Rgb a = a_->at(p);
+    return a.isBlack() ? a : a * b_->at(p);
+  }
+  float upperOver(const std::array<Vec3d, 8>& corners) const override {
+    return a_->upperOver(corners) * b_->upperOver(corners);
+  }
+  bool isBlack() const override { return a_->isBlack() || b_->isBlack(); }
+  std::string describe() const override { return a_->describe() + " times " + b_->describe(); }
+  std::size_t bytes() const override { return a_->bytes() + b_->bytes(); }
+
+ private:
+  std::shared_ptr<const EmissionPattern> a_, b_;
+};
+
 template <class Field>
 std::shared_ptr<const EmissionPattern> scalePattern(Field field) {
   SuperVoxels bounds = field.superVoxels(field.lattice({}));
@@ -114,6 +133,10 @@ std::shared_ptr<const EmissionPattern> makeBlackbodyPattern(const NanoVdbField::
                                                             const TemperatureMap& map,
                                                             const Transform& worldFromMedium) {
   return blackbodyPattern(NanoVdbField(grid, worldFromMedium), map);
+}
+std::shared_ptr<const EmissionPattern> makeProductPattern(std::shared_ptr<const EmissionPattern> a,
+                                                          std::shared_ptr<const EmissionPattern> b) {
+  return std::make_shared<ProductPattern>(std::move(a), std::move(b));
 }
 
 }  // namespace pbrtmedia

@@ -29,5 +29,8 @@ std::shared_ptr<const EmissionPattern> makeBlackbodyPattern(const GridField::Par
 std::shared_ptr<const EmissionPattern> makeBlackbodyPattern(const NanoVdbField::Params& grid,
                                                             const TemperatureMap& map,
                                                             const Transform& worldFromMedium);
+/// One pattern times the other, as black bodies times factors in PBRT-v4. Neither may be null.
+std::shared_ptr<const EmissionPattern> makeProductPattern(std::shared_ptr<const EmissionPattern> a,
+                                                          std::shared_ptr<const EmissionPattern> b);
 
 }  // namespace pbrtmedia

@@ -53,8 +53,11 @@ TEST(ConstructEmission, GridsOfFactorsAndTemperatures) {
               mapped = seen(kGrid +
                                 "\"float temperature\" [ 31 31 ] \"float temperaturescale\" 100 "
                                 "\"float temperatureoffset\" 1 \"float Lescale\" 2",
-                            2 * body);
-  for (const ZTest& test : {factors, temperatures, mapped}) EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+                            2 * body),
+              both = seen(kGrid + "\"float temperature\" [ 3000 3000 ] \"float Lescale\" [ 2.5 2.5 ]",
+                          2.5 * body);
+  for (const ZTest& test : {factors, temperatures, mapped, both})
+    EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
   EXPECT_EQ(seen(kGrid + "\"float temperature\" [ 90 100 ]", 0).mean, 0);
 }
 

@@ -39,6 +39,25 @@ class ConstructNanoVdbEmission : public testing::Test {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(found[c], expected[c], 2e-3f * expected.max());
   }
 
+  static void expectAllFound(const Attempt& a) {
+    const Medium& medium = *a.made->scene->media()[0];
+    const Segment up{{0.1f, -0.2f, -2}, {0, 0, 1}, 0, 4};
+    const auto volume = medium.emissionVolume({});
+    ASSERT_NE(volume, nullptr);
+    std::size_t emitting = 0;
+    Rng rng(1);
+    RenderCounters counters;
+    for (int i = 0; i < 400; ++i) {
+      const double t = 0.01 * i + 0.005;
+      if (emissionAt(a, up.at(t)).isBlack()) continue;
+      ++emitting;
+      const Segment there{up.o, up.d, t - 1e-6, t + 1e-6};
+      EXPECT_GT(medium.sampleEmission(there, rng, counters).count, 0u) << t;
+      EXPECT_GT(volume->directionDensity(there), 0) << t;
+    }
+    EXPECT_GT(emitting, 20u);
+  }
+
   TemporaryFolder folder_;
   const Point3f inFire_{0.1f, -0.2f, 0.3f}, below_{0.1f, -0.2f, -0.3f};
 };
@@ -60,33 +79,32 @@ TEST_F(ConstructNanoVdbEmission, FactorsOfAnotherGridOfTheFile) {
   EXPECT_EQ(emissionAt(a, below_), Rgb());
 }
 
+/// Exporters write a temperature for the colour and another grid for how much of it burns.
+TEST_F(ConstructNanoVdbEmission, TemperaturesTimesFactors) {
+  const Attempt a = with(
+      "\"string temperaturegrid\" \"smoke\" \"float temperaturescale\" 1500 \"string Legrid\" \"fire\" "
+      "\"float Lescale\" 3");
+  ASSERT_TRUE(a.isSilent()) << a.messages();
+  expectNear(emissionAt(a, inFire_), Rgb(1, 2, 3) * (2 * 0.5f) * blackbodyToRgb(3000, 3));
+  EXPECT_EQ(emissionAt(a, below_), Rgb()) << "hot, and nothing burns";
+}
+
 /// The places that distances and light samples look at must cover all that emits.
 TEST_F(ConstructNanoVdbEmission, DistancesFindAllOfIt) {
-  const Attempt a = with("\"string Legrid\" \"fire\" \"rgb Le\" [ 1 1 1 ]");
-  ASSERT_TRUE(a.made) << a.messages();
-  const Medium& medium = *a.made->scene->media()[0];
-  const Segment up{{0.1f, -0.2f, -2}, {0, 0, 1}, 0, 4};
-  const auto volume = medium.emissionVolume({});
-  ASSERT_NE(volume, nullptr);
-  std::size_t emitting = 0;
-  Rng rng(1);
-  RenderCounters counters;
-  for (int i = 0; i < 400; ++i) {
-    const double t = 0.01 * i + 0.005;
-    if (emissionAt(a, up.at(t)).isBlack()) continue;
-    ++emitting;
-    const Segment there{up.o, up.d, t - 1e-6, t + 1e-6};
-    EXPECT_GT(medium.sampleEmission(there, rng, counters).count, 0u) << t;
-    EXPECT_GT(volume->directionDensity(there), 0) << t;
+  for (const char* emission :
+       {"\"string Legrid\" \"fire\" \"rgb Le\" [ 1 1 1 ]",
+        "\"string Legrid\" \"fire\" \"string temperaturegrid\" \"smoke\" \"float temperaturescale\" 1e3"}) {
+    SCOPED_TRACE(emission);
+    const Attempt a = with(emission);
+    ASSERT_TRUE(a.made) << a.messages();
+    expectAllFound(a);
   }
-  EXPECT_GT(emitting, 20u);
 }
 
 TEST_F(ConstructNanoVdbEmission, WrongNamesAreToldWhereTheyStand) {
   const Attempt missing = with("\"string temperaturegrid\" \"fyre\"");
   EXPECT_TRUE(missing.failsWith("fyre")) << missing.messages();
-  EXPECT_TRUE(
-      with("\"string temperaturegrid\" \"fire\" \"string Legrid\" \"fire\"").failsWith("one of them"));
+  EXPECT_TRUE(with("\"string temperaturegrid\" \"fire\" \"string Legrid\" \"heet\"").failsWith("heet"));
   EXPECT_TRUE(with("\"string temperaturegrid\" \"fire\" \"rgb Le\" [ 1 1 1 ]").failsWith("one of them"));
 }
 
