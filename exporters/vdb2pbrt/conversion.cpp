@@ -3,16 +3,16 @@
 
 #include <zlib.h>
 
-#include <algorithm>
-#include <array>
 #include <fstream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "base/files.h"
-#include "fields/nano_vdb_file.h"
+#include "vdb2pbrt/look.h"
+#include "vdb2pbrt/pbrt_include.h"
 #include "vdb2pbrt/vdb_file.h"
+#include "vdb2pbrt/volume.h"
 
 namespace pbrtmedia {
 namespace {
@@ -33,142 +33,115 @@ void writeText(const std::filesystem::path& path, const std::string& text, bool 
   });
 }
 
-std::vector<std::size_t> chosenGrids(const VdbFile& file, const ConversionOptions& options) {
-  std::vector<std::size_t> chosen;
-  if (options.allGrids) {
-    for (std::size_t i = 0; i < file.grids().size(); ++i) {
-      if (file.grids()[i].isDensity) chosen.push_back(i);
-    }
-    if (chosen.empty())
-      throw std::runtime_error("no grid is a density; the file holds:\n" + listGrids(file.grids()));
-    return chosen;
-  }
-  if (options.grids.empty()) return {chooseGrid(file.grids(), "")};
-  for (const std::string& wanted : options.grids) {
-    const std::size_t found = chooseGrid(file.grids(), wanted);
-    if (std::find(chosen.begin(), chosen.end(), found) == chosen.end()) chosen.push_back(found);
-  }
-  return chosen;
-}
-
-std::string shown(VoxelIndex v) {
-  std::ostringstream text;
-  text << '(' << v.x << ", " << v.y << ", " << v.z << ')';
-  return text.str();
-}
-
-void check(VdbDensity& density, const ConversionOptions& options, const Notice& notice) {
-  const std::string name = "grid \"" + density.name() + "\"";
-  if (density.isLevelSet() && options.negative != NegativeRule::Keep) {
-    throw std::runtime_error(
-        name +
-        " is a level set: it tells distances, not densities. Make a fog volume of it first, "
-        "or keep its values with --negative keep");
-  }
-  const VdbDensity::Negatives negatives = density.checkValues(options.negative);
-  if (negatives.count > 0) {
-    std::ostringstream text;
-    text << name << ": " << negatives.count << " voxels are negative, the first " << shown(negatives.first)
-         << " with " << negatives.firstValue
-         << (options.negative == NegativeRule::Clamp ? "; they are now 0"
-                                                     : "; they are kept, and the renderer will refuse them");
-    notice(text.str());
-  }
-  if (density.activeVoxels() == 0) notice(name + " has no active voxels: the medium is clear");
-  if (density.background() != 0) {
-    std::ostringstream text;
-    text << name << " has the background " << density.background()
-         << ": it counts as density in the box of the active voxels grown by one, and nowhere else";
-    notice(text.str());
-  }
-}
-
-}  // namespace
-
-void convertVdb(const std::filesystem::path& input, const std::filesystem::path& output,
-                const ConversionOptions& options, const Notice& notice) {
+void checkNames(const std::filesystem::path& output, const std::filesystem::path& scene) {
   const std::string extension = output.extension().string();
   if (extension == ".nvdb" || extension == ".vdb") {
     throw std::runtime_error("the output is a .pbrt include (the .nvdb file gets its name); found \"" +
                              output.string() + '"');
   }
-  const VdbFile file(input);
-  std::vector<VdbDensity> densities;
-  try {
-    for (const std::size_t index : chosenGrids(file, options)) densities.push_back(file.read(index));
-  } catch (const std::runtime_error& e) {
-    const std::string what = e.what();
-    throw std::runtime_error(what.starts_with(input.string()) ? what : input.string() + ": " + what);
+  if (scene.empty()) return;
+  if (scene.extension() != ".pbrt") {
+    throw std::runtime_error("--scene: expected a name that ends with .pbrt, found \"" + scene.string() +
+                             '"');
   }
-  for (VdbDensity& density : densities) check(density, options, notice);
+  if (std::filesystem::absolute(scene).lexically_normal() ==
+      std::filesystem::absolute(output).lexically_normal()) {
+    throw std::runtime_error("--scene and the include are both \"" + output.string() +
+                             "\"; another name for one of them");
+  }
+}
 
-  const std::vector<std::string> media = mediumNames(densities, input.stem().string());
-  const std::vector<std::string> selectors = gridSelectors(densities);
+std::vector<IncludeGrid> includeGrids(const Volume& volume, const std::vector<std::string>& selectors,
+                                      const std::string& medium, const std::string& stem) {
+  const std::vector<std::string> media = mediumNames(volume.densities(), stem);
   std::vector<IncludeGrid> grids;
-  for (std::size_t i = 0; i < densities.size(); ++i) {
-    const bool named = densities.size() == 1 && !options.medium.empty();
-    grids.push_back({&densities[i], named ? options.medium : media[i], selectors[i]});
+  for (std::size_t i = 0; i < volume.densityCount; ++i) {
+    const bool named = volume.densityCount == 1 && !medium.empty();
+    grids.push_back({&volume.grids[i], named ? medium : media[i], selectors[i]});
   }
-  if (options.dense != DenseForm::None) {
-    const std::string text = denseInclude(grids, input.filename().string(), options.include);
-    writeText(output, text, options.dense == DenseForm::Gz);
-    return;
-  }
-  std::filesystem::path nvdb = output;
-  nvdb.replace_extension(".nvdb");
-  const std::string text =
-      nvdbInclude(grids, nvdb.filename().string(), input.filename().string(), options.include);
-  writeNvdb(nvdb, densities, options.nvdb);
-  writeText(output, text, false);
+  return grids;
 }
 
-namespace {
-
-std::string describeNanoVdb(const NanoVdbFile& file) {
-  std::ostringstream text;
-  text << "NanoVDB, " << file.grids().size() << " grids\n" << listGrids(file.candidates()) << '\n';
-  for (std::size_t i = 0; i < file.grids().size(); ++i) {
-    const NanoVdbGridInfo& g = file.grids()[i];
-    text << "grid " << i << " \"" << g.name << "\": version " << g.version << ", codec " << g.codec << ", "
-         << g.bytesInFile << " bytes in the file, voxel size " << g.voxelSize << '\n';
-    if (g.activeVoxels > 0) text << "    world box " << g.world.min << " .. " << g.world.max << '\n';
+IncludeEmission includeEmission(const Volume& volume, const std::vector<std::string>& selectors,
+                                const ConversionOptions& look) {
+  IncludeEmission emission;
+  if (!volume.glows()) return emission;
+  if (volume.temperature) {
+    emission.temperature = &volume.grids[*volume.temperature];
+    emission.temperatureGrid = selectors[*volume.temperature];
   }
-  return text.str();
+  if (volume.factor) {
+    emission.factor = &volume.grids[*volume.factor];
+    emission.factorGrid = selectors[*volume.factor];
+  }
+  emission.temperatureScale = *look.temperatureScale;
+  emission.temperatureOffset = look.temperatureOffset;
+  emission.le = *look.le;
+  emission.leScale = *look.leScale;
+  return emission;
 }
 
-void describeDensity(std::ostream& text, const VdbDensity& density) {
-  const VdbDensity::Range range = density.range();
-  text << "    values " << range.min << " .. " << range.max << ", background " << density.background() << ", "
-       << density.activeVoxels() << " active voxels";
-  if (density.activeVoxels() > 0)
-    text << " in " << shown(density.activeMin()) << " .. " << shown(density.activeMax());
-  text << '\n';
-  for (std::size_t row = 0; row < 3; ++row) {
-    text << (row == 0 ? "    world from index [" : "                     [");
-    for (std::size_t column = 0; column < 4; ++column) {
-      text << ' ' << density.worldFromIndex().matrix().m[row][column];
-    }
-    text << " ]\n";
-  }
+std::string sceneFor(const Volume& volume, const std::filesystem::path& input,
+                     const std::filesystem::path& output, const ConversionOptions& look) {
+  SceneParams scene;
+  scene.source = input.filename().string();
+  const std::filesystem::path folder = std::filesystem::absolute(look.scene).lexically_normal().parent_path();
+  scene.include = std::filesystem::absolute(output).lexically_normal().lexically_proximate(folder).string();
+  scene.image = std::filesystem::path(look.scene).filename().replace_extension(".exr").string();
+  scene.box = look.sceneBox ? *look.sceneBox : volume.box();
+  if (scene.box.isEmpty()) scene.box = {{-1, -1, -1}, {1, 1, 1}};
+  scene.up = *look.up;
+  scene.glows = volume.glows();
+  return framedScene(scene);
 }
 
 }  // namespace
 
-std::string describeVolume(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::array<char, 8> magic{};
-  stream.read(magic.data(), magic.size());
-  const std::string_view start(magic.data(), magic.size());
-  if (start.starts_with("NanoVDB")) return describeNanoVdb(NanoVdbFile(file));
-  const VdbFile vdb(file);
-  std::ostringstream text;
-  text << "OpenVDB " << vdb.version() << ", " << vdb.grids().size() << " grids\n";
-  for (std::size_t i = 0; i < vdb.grids().size(); ++i) {
-    const GridCandidate& grid = vdb.grids()[i];
-    text << "grid " << i << " \"" << grid.name << "\": " << grid.description << '\n';
-    if (grid.isDensity) describeDensity(text, vdb.read(i));
+void convertVdb(const std::filesystem::path& input, const std::filesystem::path& output,
+                const ConversionOptions& options, const Notice& notice, const Progress& progress) {
+  checkNames(output, options.scene);
+  const Volume volume = readVolume(input, options, notice, progress);
+  if (progress) progress("measuring", -1);
+  const ConversionOptions look = options.isSettled ? options : lookFor(volume, options, notice);
+  const std::vector<std::string> selectors = gridSelectors(volume.grids);
+  const std::vector<IncludeGrid> grids =
+      includeGrids(volume, selectors, options.medium, input.stem().string());
+  const IncludeEmission emission = includeEmission(volume, selectors, look);
+  const IncludeOptions coefficients{.sigmaA = *look.sigmaA, .sigmaS = *look.sigmaS, .scale = *look.scale};
+  const std::string source = input.filename().string();
+  if (options.dense != DenseForm::None) {
+    if (progress) progress("writing \"" + output.string() + '"', -1);
+    writeText(output, denseInclude(grids, emission, source, coefficients), options.dense == DenseForm::Gz);
+  } else {
+    std::filesystem::path nvdb = output;
+    nvdb.replace_extension(".nvdb");
+    if (progress) progress("writing \"" + nvdb.string() + '"', -1);
+    const std::string text = nvdbInclude(grids, emission, nvdb.filename().string(), source, coefficients);
+    writeNvdb(nvdb, volume.grids, options.nvdb);
+    writeText(output, text, false);
   }
-  return text.str();
+  if (!options.scene.empty()) writeText(options.scene, sceneFor(volume, input, output, look), false);
+}
+
+ConversionOptions settled(const std::filesystem::path& input, const ConversionOptions& options,
+                          const Notice& notice, const Progress& progress) {
+  // What is wrong with single voxels is told when the frame is converted.
+  const Volume volume = readVolume(
+      input, options, [](const std::string&) {}, progress);
+  if (progress) progress("measuring", -1);
+  ConversionOptions look = lookFor(volume, options, notice);
+  look.isSettled = true;
+  return look;
+}
+
+Bounds3d boxOfDensities(const std::filesystem::path& input, const ConversionOptions& options) {
+  const VdbFile file(input);
+  Bounds3d box;
+  for (const std::size_t index : selectGrids(file.grids(), options.grids).densities) {
+    const Bounds3d told = file.worldBox(index);
+    box.expand(told.isEmpty() ? file.read(index).worldBox() : told);
+  }
+  return box;
 }
 
 }  // namespace pbrtmedia

@@ -9,18 +9,10 @@
 namespace pbrtmedia {
 namespace {
 
-/// Fewest digits that read back to the same number.
 template <class T>
 void put(std::string& out, T number) {
   std::array<char, 32> digits;
   out.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
-}
-
-void putVector(std::string& out, Vec3d v) {
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (a > 0) out += ' ';
-    put(out, v[a]);
-  }
 }
 
 std::string shown(VoxelIndex v) {
@@ -34,21 +26,6 @@ bool isPlain(const std::string& name) {
   });
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
-}
-
-std::string inComment(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return out;
-}
-
 void putHeader(std::string& out, const std::string& source) {
   out += "# Made by vdb2pbrt from " + inComment(source) + ".\n";
 }
@@ -58,13 +35,9 @@ void putFacts(std::string& out, const VdbDensity& density) {
          " active voxels";
   if (density.activeVoxels() > 0) {
     out += " in [" + shown(density.activeMin()) + "] .. [" + shown(density.activeMax()) + "]";
-    const auto first = Vec3d(density.activeMin()), last = Vec3d(density.activeMax());
+    const Bounds3d inIndex{Vec3d(density.activeMin()), Vec3d(density.activeMax())};
     Bounds3d world;
-    for (int i = 0; i < 8; ++i) {
-      world.expand(density.worldFromIndex().point(Vec3d((i & 1) != 0 ? last.x : first.x,
-                                                        (i & 2) != 0 ? last.y : first.y,
-                                                        (i & 4) != 0 ? last.z : first.z)));
-    }
+    for (int i = 0; i < 8; ++i) world.expand(density.worldFromIndex().point(inIndex.corner(i)));
     out += ",\n# centres of voxels in world space [";
     putVector(out, world.min);
     out += "] .. [";
@@ -122,10 +95,94 @@ void putBoundary(std::string& out, const VdbDensity& density, const std::string&
       "5 7 6 ]\n";
 }
 
+void putRadiance(std::string& out, const IncludeEmission& emission) {
+  if (emission.temperature != nullptr) {
+    out += "\n ";
+    if (emission.temperatureScale != 1) {
+      out += " \"float temperaturescale\" ";
+      put(out, emission.temperatureScale);
+    }
+    if (emission.temperatureOffset != 0) {
+      out += " \"float temperatureoffset\" ";
+      put(out, emission.temperatureOffset);
+    }
+  } else {
+    out += "\n  \"rgb Le\" [ ";
+    putVector(out, emission.le);
+    out += " ]";
+  }
+}
+
+void putLescale(std::string& out, double scale) {
+  out += " \"float Lescale\" ";
+  put(out, scale);
+}
+
+/// As the medium "nanovdb" reads it.
+void putEmission(std::string& out, const IncludeEmission& emission) {
+  if (!emission.isThere()) return;
+  putRadiance(out, emission);
+  putLescale(out, emission.leScale);
+  if (emission.temperature != nullptr) {
+    out += "\n  \"string temperaturegrid\" " + quoted(emission.temperatureGrid);
+  }
+  if (emission.factor != nullptr) out += "\n  \"string Legrid\" " + quoted(emission.factorGrid);
+}
+
+void putSamples(std::string& out, const std::string& name, const std::vector<float>& samples,
+                std::int64_t perRow, double scale = 1) {
+  out += "\n  \"float " + name + "\" [";
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    out += i % static_cast<std::size_t>(perRow) == 0 ? '\n' : ' ';
+    put(out, scale == 1 ? samples[i] : static_cast<float>(scale * static_cast<double>(samples[i])));
+  }
+  out += " ]";
+}
+
+/// As the medium "heterogeneous" reads it: a number for each sample lo..hi.
+void putDenseEmission(std::string& out, const IncludeEmission& emission, const Transform& worldFromIndex,
+                      VoxelIndex lo, VoxelIndex hi) {
+  if (!emission.isThere()) return;
+  putRadiance(out, emission);
+  const std::int64_t perRow = hi.x - lo.x + 1;
+  if (emission.factor == nullptr) {
+    putLescale(out, emission.leScale);
+  } else {
+    putSamples(out, "Lescale", emission.factor->samplesAt(worldFromIndex, lo, hi), perRow, emission.leScale);
+  }
+  if (emission.temperature != nullptr) {
+    putSamples(out, "temperature", emission.temperature->samplesAt(worldFromIndex, lo, hi), perRow);
+  }
+}
+
 }  // namespace
 
-std::string nvdbInclude(std::span<const IncludeGrid> grids, const std::string& nvdb,
-                        const std::string& source, const IncludeOptions& options) {
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string inComment(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  return out;
+}
+
+void putNumber(std::string& out, double number) { put(out, number); }
+
+void putVector(std::string& out, Vec3d v) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (a > 0) out += ' ';
+    put(out, v[a]);
+  }
+}
+
+std::string nvdbInclude(std::span<const IncludeGrid> grids, const IncludeEmission& emission,
+                        const std::string& nvdb, const std::string& source, const IncludeOptions& options) {
   std::string out;
   putHeader(out, source);
   for (const IncludeGrid& grid : grids) {
@@ -133,6 +190,7 @@ std::string nvdbInclude(std::span<const IncludeGrid> grids, const std::string& n
     out += "MakeNamedMedium " + quoted(grid.medium) + " \"string type\" \"nanovdb\"\n  \"string filename\" " +
            quoted(nvdb) + " \"string grid\" " + quoted(grid.grid) + "\n";
     putCoefficients(out, options, grids.size() > 1);
+    putEmission(out, emission);
     out += "\nAttributeBegin  # index space; the medium itself has this transformation from its file\n";
     putTransform(out, grid.density->worldFromIndex());
     putBoundary(out, *grid.density, grid.medium);
@@ -141,8 +199,8 @@ std::string nvdbInclude(std::span<const IncludeGrid> grids, const std::string& n
   return out;
 }
 
-std::string denseInclude(std::span<const IncludeGrid> grids, const std::string& source,
-                         const IncludeOptions& options) {
+std::string denseInclude(std::span<const IncludeGrid> grids, const IncludeEmission& emission,
+                         const std::string& source, const IncludeOptions& options) {
   std::string out;
   putHeader(out, source);
   for (const IncludeGrid& grid : grids) {
@@ -169,13 +227,9 @@ std::string denseInclude(std::span<const IncludeGrid> grids, const std::string& 
     out += " ]\n  \"integer nx\" " + std::to_string(n.x) + " \"integer ny\" " + std::to_string(n.y) +
            " \"integer nz\" " + std::to_string(n.z) + "\n";
     putCoefficients(out, options, grids.size() > 1);
-    out += "\n  \"float density\" [";
-    const std::vector<float> samples = density.samples(lo, hi);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      out += i % static_cast<std::size_t>(n.x) == 0 ? '\n' : ' ';
-      put(out, samples[i]);
-    }
-    out += " ]\n";
+    putDenseEmission(out, emission, density.worldFromIndex(), lo, hi);
+    putSamples(out, "density", density.samples(lo, hi), n.x);
+    out += "\n";
     putBoundary(out, density, grid.medium);
     out += "AttributeEnd\n";
   }

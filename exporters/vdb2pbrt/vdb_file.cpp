@@ -5,7 +5,10 @@
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/io/io.h>
 
+#include <algorithm>
 #include <fstream>
+#include <functional>
+#include <optional>
 #include <stdexcept>
 
 #include "vdb2pbrt/vdb_density_grid.h"
@@ -57,20 +60,60 @@ std::string describe(const openvdb::GridBase& grid, bool asHalf) {
   return text.str();
 }
 
+Bounds3d worldBoxOf(const openvdb::GridBase& grid) {
+  Bounds3d box;
+  const auto voxels = grid.getMetadata<openvdb::Int64Metadata>(openvdb::GridBase::META_FILE_VOXEL_COUNT);
+  const auto lo = grid.getMetadata<openvdb::Vec3IMetadata>(openvdb::GridBase::META_FILE_BBOX_MIN);
+  const auto hi = grid.getMetadata<openvdb::Vec3IMetadata>(openvdb::GridBase::META_FILE_BBOX_MAX);
+  if (!lo || !hi || (voxels && voxels->value() == 0)) return box;
+  const openvdb::Vec3d first = openvdb::Vec3d(lo->value()) - openvdb::Vec3d(1.0),
+                       last = openvdb::Vec3d(hi->value()) + openvdb::Vec3d(1.0);
+  const Bounds3d inIndex{{first.x(), first.y(), first.z()}, {last.x(), last.y(), last.z()}};
+  for (int i = 0; i < 8; ++i) {
+    const Vec3d c = inIndex.corner(i);
+    const openvdb::Vec3d p = grid.transform().indexToWorld(openvdb::Vec3d(c.x, c.y, c.z));
+    box.expand(Vec3d(p.x(), p.y(), p.z()));
+  }
+  return box;
+}
+
+/// A file that tells how much of it was read.
+class CountingBuffer : public std::filebuf {
+ public:
+  std::function<void(std::uint64_t)> onRead;  ///< called with all bytes so far, once for some megabytes
+
+ protected:
+  std::streamsize xsgetn(char* to, std::streamsize count) override {
+    const std::streamsize read = std::filebuf::xsgetn(to, count);
+    bytes_ += static_cast<std::uint64_t>(std::max<std::streamsize>(read, 0));
+    if (onRead && bytes_ - told_ > kStep) {
+      told_ = bytes_;
+      onRead(bytes_);
+    }
+    return read;
+  }
+
+ private:
+  static constexpr std::uint64_t kStep = 4u << 20;
+  std::uint64_t bytes_ = 0, told_ = 0;
+};
+
 }  // namespace
 
 /// The file with its directory. The library's own reader goes on after the end of the data without a word;
 /// here the stream throws.
 struct VdbFile::Archive : io::Archive {
-  std::ifstream stream;
+  CountingBuffer buffer;
+  std::istream stream{&buffer};
+  std::string creator;
   openvdb::SharedPtr<io::StreamMetadata> metadata{new io::StreamMetadata};
   std::uint64_t size = 0;
   std::vector<io::GridDescriptor> places;
 
   /// Throws std::runtime_error without the file's name.
   void open(const std::filesystem::path& path) {
-    stream.open(path, std::ios::binary);
-    if (!stream || std::filesystem::is_directory(path)) throw std::runtime_error("it cannot be opened");
+    if (buffer.open(path, std::ios::in | std::ios::binary) == nullptr || std::filesystem::is_directory(path))
+      throw std::runtime_error("it cannot be opened");
     size = std::filesystem::file_size(path);
     checkHeader();
     stream.exceptions(std::ios::failbit | std::ios::badbit);
@@ -81,6 +124,7 @@ struct VdbFile::Archive : io::Archive {
     setDataCompression(stream);
     openvdb::MetaMap ofFile;
     ofFile.readMeta(stream);
+    if (const auto given = ofFile.getMetadata<openvdb::StringMetadata>("creator")) creator = given->value();
   }
 
   void checkHeader() {
@@ -135,6 +179,12 @@ struct VdbFile::Archive : io::Archive {
     throw std::runtime_error("grid \"" + place.gridName() + "\" refers to a tree that is not there");
   }
 
+  /// Of the grid's data; 0 where the file does not tell.
+  std::uint64_t bytesOf(std::size_t index) const {
+    const std::int64_t from = places[index].getGridPos(), to = places[index].getEndPos();
+    return to > from ? static_cast<std::uint64_t>(to - from) : 0;
+  }
+
   void readDirectory() {
     const std::int32_t count = readGridCount(stream);
     for (std::int32_t i = 0; i < count; ++i) {
@@ -168,11 +218,13 @@ VdbFile::VdbFile(const std::filesystem::path& path) : path_(path), archive_(std:
   try {
     archive_->open(path);
     version_ = archive_->version();
+    creator_ = archive_->creator;
     archive_->readDirectory();
     for (std::size_t i = 0; i < archive_->places.size(); ++i) {
       const openvdb::GridBase::Ptr grid = archive_->readStart(i);
       candidates_.push_back({archive_->places[i].gridName(),
                              describe(*grid, archive_->places[i].saveFloatAsHalf()), isDensity(*grid)});
+      boxes_.push_back(worldBoxOf(*grid));
     }
   } catch (const std::ios_base::failure&) {
     throw std::runtime_error(path.string() + ": the file is truncated: its data ends early");
@@ -183,7 +235,7 @@ VdbFile::VdbFile(const std::filesystem::path& path) : path_(path), archive_(std:
 
 VdbFile::~VdbFile() = default;
 
-VdbDensity VdbFile::read(std::size_t index) const {
+VdbDensity VdbFile::read(std::size_t index, const std::function<void(double)>& progress) const {
   const GridCandidate& wanted = candidates_.at(index);
   const auto fail = [&](const std::string& what) -> std::runtime_error {
     return std::runtime_error(path_.string() + ": " + what);
@@ -193,7 +245,17 @@ VdbDensity VdbFile::read(std::size_t index) const {
                "; expected float or double. The file holds:\n" + listGrids(candidates_));
   }
   try {
+    archive_->buffer.onRead = nullptr;
+    if (progress) {
+      const auto size = static_cast<double>(archive_->bytesOf(index));
+      archive_->buffer.onRead = [&, size,
+                                 before = std::optional<std::uint64_t>()](std::uint64_t bytes) mutable {
+        if (!before) before = bytes;
+        if (size > 0) progress(std::min(1.0, static_cast<double>(bytes - *before) / size));
+      };
+    }
     const openvdb::GridBase::Ptr grid = archive_->readWhole(index);
+    archive_->buffer.onRead = nullptr;
     auto result = std::make_unique<VdbDensity::Grid>();
     if (grid->isType<openvdb::FloatGrid>()) {
       result->grid = openvdb::gridPtrCast<openvdb::FloatGrid>(grid);

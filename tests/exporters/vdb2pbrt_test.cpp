@@ -14,6 +14,7 @@
 #include "scene/param_reader.h"
 #include "scene/parser.h"
 #include "support/temporary_folder.h"
+#include "vdb2pbrt/describe_volume.h"
 
 namespace pbrtmedia {
 namespace {
@@ -203,9 +204,45 @@ TEST_F(Vdb2Pbrt, RefusesWhatIsNoDensity) {
   EXPECT_NE(refusal(VdbKind::NotANumber).find("grid \"density\": voxel (1, 2, 3) is nan"), std::string::npos)
       << refusal(VdbKind::NotANumber);
   EXPECT_NE(refusal(VdbKind::LevelSet).find("is a level set"), std::string::npos);
+  EXPECT_NE(refusal(VdbKind::LevelSet).find("--level-set fog"), std::string::npos);
   EXPECT_NE(refusal(VdbKind::Frustum).find("frustum"), std::string::npos) << refusal(VdbKind::Frustum);
   EXPECT_FALSE(folder_.has("t.nvdb"));
   EXPECT_FALSE(folder_.has("t.pbrt"));
+}
+
+TEST_F(Vdb2Pbrt, CountsWhatIsNotFiniteAndMakesItZero) {
+  const std::string error = refusal(VdbKind::NotFinite);
+  for (const char* part : {"voxel (40, 0, 0) is inf, and 512 more like it", "--nan zero", "t.vdb"}) {
+    EXPECT_NE(error.find(part), std::string::npos) << part << " in " << error;
+  }
+  ConversionOptions options;
+  options.nan = NanRule::Zero;
+  const std::string notices = convert(VdbKind::NotFinite, options);
+  EXPECT_NE(notices.find("513 voxels are no finite number, the first (40, 0, 0) with inf; they are now 0"),
+            std::string::npos)
+      << notices;
+  const NanoVdbField field({in("t.nvdb"), "", {}}, Transform());
+  EXPECT_EQ(field.densityAt({1, 2, 3}), 0.0f);
+  EXPECT_EQ(field.densityAt({41, 3, 3}), 0.0f);
+  EXPECT_EQ(field.densityAt({2, 2, 3}), 0.75f);
+  EXPECT_NE(
+      convert(VdbKind::NotANumber, options).find("1 voxel is no finite number, the first (1, 2, 3) with nan"),
+      std::string::npos);
+}
+
+TEST_F(Vdb2Pbrt, MakesFogOfLevelSets) {
+  ConversionOptions options;
+  options.levelSet = LevelSetRule::Fog;
+  EXPECT_NE(convert(VdbKind::SphereLevelSet, options).find("it is a fog volume now"), std::string::npos);
+  const NanoVdbField field({in("t.nvdb"), "", {}}, Transform());
+  EXPECT_EQ(field.densityAt({2, 0, 0}), 1.0f);
+  EXPECT_EQ(field.densityAt({2, 0.5, 0}), 1.0f);
+  EXPECT_EQ(field.densityAt({2, 0, 1.15}), 0.0f);
+  EXPECT_EQ(field.densityAt({0, 0, 0}), 0.0f);
+  const float inBand = field.densityAt({2, 0.85, 0});
+  EXPECT_GT(inBand, 0.3f);
+  EXPECT_LT(inBand, 0.7f);
+  EXPECT_TRUE(scene().isSilent()) << scene().messages();
 }
 
 TEST_F(Vdb2Pbrt, NoticesTheBackgroundAndEmptyGrids) {
@@ -219,8 +256,8 @@ TEST_F(Vdb2Pbrt, ChoosesGridsByNameNumberAndBeginning) {
   const auto notice = [](const std::string&) {};
   const auto converted = [&](std::vector<std::string> grids, bool all = false) {
     ConversionOptions options;
-    options.grids = std::move(grids);
-    options.allGrids = all;
+    options.grids.densities = std::move(grids);
+    options.grids.allDensities = all;
     convertVdb(in("t.vdb"), in("t.pbrt"), options, notice);
     const Attempt a = scene();
     EXPECT_TRUE(a.made.has_value()) << a.messages();
@@ -235,13 +272,13 @@ TEST_F(Vdb2Pbrt, ChoosesGridsByNameNumberAndBeginning) {
   EXPECT_EQ(converted({"1"}), "t|") << "a grid without name takes the file's";
   EXPECT_EQ(converted({"with \"quotes\""}), "t|");
   EXPECT_EQ(folder_.read("t.pbrt").find("overlap"), std::string::npos);
-  EXPECT_EQ(converted({}, true), "density|t|density-2|t-2|temperature|");
+  EXPECT_EQ(converted({}, true), "density|t|density-2|t-2|");
   EXPECT_NE(folder_.read("t.pbrt").find("\"string overlap\" \"add\""), std::string::npos);
   // Two grids of one name and two without a plain one are told apart by number.
   EXPECT_EQ(NanoVdbField({in("t.nvdb"), "2", {}}, Transform()).activeMin(), (Vec3<std::int64_t>(3, -4, 5)));
   ConversionOptions options;
   for (const std::string miss : {"Density", "v", "99", ""}) {
-    options.grids.assign(miss.empty() ? 0 : 1, miss);
+    options.grids.densities.assign(miss.empty() ? 0 : 1, miss);
     try {
       convertVdb(in("t.vdb"), in("t.pbrt"), options, notice);
       ADD_FAILURE() << miss;
@@ -264,7 +301,7 @@ TEST_F(Vdb2Pbrt, GivesTheSameBytesForTheSameGrid) {
 TEST_F(Vdb2Pbrt, ReadsFilesOfStreams) {
   test::writeVdbStream(in("t.vdb"), VdbKind::Placed);
   ConversionOptions options;
-  options.grids = {"1"};
+  options.grids.densities = {"1"};
   convertVdb(in("t.vdb"), in("t.pbrt"), options, [](const std::string&) {});
   EXPECT_EQ(NanoVdbField({in("t.nvdb"), "", {}}, Transform()).activeMin(), (Vec3<std::int64_t>(3, -4, 5)));
 }

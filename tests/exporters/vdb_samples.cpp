@@ -4,6 +4,7 @@
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/LevelSetSphere.h>
 
 #include <cmath>
 #include <fstream>
@@ -87,6 +88,11 @@ FloatGrid::Ptr makeFloat(VdbKind kind) {
       fillCloud(*grid);
       to.setValue(Coord(1, 2, 3), std::numeric_limits<float>::quiet_NaN());
       break;
+    case VdbKind::NotFinite:
+      fillCloud(*grid);
+      to.setValue(Coord(1, 2, 3), std::numeric_limits<float>::quiet_NaN());
+      grid->sparseFill(CoordBBox({40, 0, 0}, {47, 7, 7}), std::numeric_limits<float>::infinity());
+      break;
     case VdbKind::LevelSet:
       fillCloud(*grid);
       to.setValue(Coord(2, 3, 4), -0.25f);
@@ -106,6 +112,12 @@ FloatGrid::Ptr makeFloat(VdbKind kind) {
 
 openvdb::GridBase::Ptr make(VdbKind kind) {
   openvdb::initialize();
+  if (kind == VdbKind::SphereLevelSet) {
+    const FloatGrid::Ptr grid =
+        openvdb::tools::createLevelSetSphere<FloatGrid>(1.0f, openvdb::Vec3f(2, 0, 0), 0.1f);
+    grid->setName("surface");
+    return grid;
+  }
   if (kind != VdbKind::Double) return makeFloat(kind);
   openvdb::DoubleGrid::Ptr grid = openvdb::DoubleGrid::create(0.0);
   grid->setName("density");
@@ -141,6 +153,29 @@ void writeVdbOfManyGrids(const std::filesystem::path& file) {
   vectors->setName("v");
   vectors->fill(CoordBBox({0, 0, 0}, {3, 3, 3}), openvdb::Vec3s(1.0f));
   grids.push_back(vectors);
+  openvdb::io::File(file.string()).write(grids);
+}
+
+void writeFireVdb(const std::filesystem::path& file, float hottest) {
+  openvdb::initialize();
+  const auto filled = [](const char* name, double voxel, const CoordBBox& box, float value) {
+    FloatGrid::Ptr grid = FloatGrid::create(0.0f);
+    grid->setName(name);
+    grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel));
+    grid->fill(box, value);
+    return grid;
+  };
+  openvdb::Vec3SGrid::Ptr vectors = openvdb::Vec3SGrid::create();
+  vectors->setName("vel");
+  vectors->fill(CoordBBox({0, 0, 0}, {3, 3, 3}), openvdb::Vec3s(1.0f));
+  openvdb::BoolGrid::Ptr mask = openvdb::BoolGrid::create(false);
+  mask->setName("mask");
+  mask->fill(CoordBBox({0, 0, 0}, {3, 3, 3}), true);
+  const openvdb::GridPtrVec grids = {filled("temperature", 0.2, CoordBBox({-5, 1, -5}, {5, 5, 5}), hottest),
+                                     filled("density", 0.1, CoordBBox({-10, -10, -10}, {9, 9, 9}), 1),
+                                     filled("heat", 0.1, CoordBBox({-10, -10, -10}, {9, -2, 9}), 0.5f),
+                                     vectors, mask};
   openvdb::io::File(file.string()).write(grids);
 }
 

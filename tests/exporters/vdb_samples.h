@@ -23,7 +23,9 @@ enum class VdbKind {
   Background,  ///< 0.25
   Inactive,    ///< values beside active ones that are not active themselves
   LevelSet,
-  NotANumber,  ///< at (1, 2, 3)
+  SphereLevelSet,  ///< radius 1 around (2, 0, 0), voxels of 0.1
+  NotANumber,      ///< at (1, 2, 3)
+  NotFinite,       ///< NaN at (1, 2, 3), infinities in a tile of 512 voxels from (40, 0, 0)
   Frustum
 };
 
@@ -32,6 +34,10 @@ void writeVdb(const std::filesystem::path& file, VdbKind kind);
 /// Grids called "density" (Placed), "", "density" again (OneVoxel), "with \"quotes\"", "temperature", and a
 /// grid of vectors, "v".
 void writeVdbOfManyGrids(const std::filesystem::path& file);
+/// What a simulation of fire writes: "temperature" (`hottest` in the upper half of the box, voxels of 0.2),
+/// "density" (1 in 20^3 voxels of 0.1 around the origin), "heat" (0.5 in the lower half), "vel" (vectors) and
+/// "mask" (bools).
+void writeFireVdb(const std::filesystem::path& file, float hottest);
 /// A file without the table of offsets, as a stream writes it.
 void writeVdbStream(const std::filesystem::path& file, VdbKind kind);
 
