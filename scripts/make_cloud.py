@@ -10,7 +10,7 @@ import pathlib
 
 import numpy as np
 
-NX, NY, NZ = 80, 56, 64
+NX, NY, NZ = 128, 88, 100
 P0, P1 = (-1.25, -0.85, 0.0), (1.25, 0.85, 1.9)
 SEED = 11
 
@@ -32,17 +32,18 @@ def value_noise(points, rng_seed, frequency):
 
 
 def balls(rng):
-    """Centre and radius of every ball: a flat base row, then two generations on the upper surfaces."""
-    out = [((-0.55, 0.05, 0.42), 0.36), ((0.05, -0.05, 0.48), 0.44), ((0.6, 0.05, 0.4), 0.34)]
+    """Centre and radius of every ball: a flat base row and a tower, then three generations on their upper surfaces."""
+    out = [((-0.74, 0.0, 0.34), 0.30), ((-0.34, 0.04, 0.48), 0.40), ((0.12, -0.02, 0.66), 0.50),
+           ((0.22, 0.04, 1.06), 0.40), ((0.52, 0.0, 0.44), 0.38), ((0.86, 0.02, 0.33), 0.26)]
     parents = list(out)
-    for radius_scale, children in ((0.62, 7), (0.55, 6)):
+    for radius_scale, children in ((0.55, 9), (0.50, 7), (0.5, 5)):
         born = []
         for (cx, cy, cz), r in parents:
             for _ in range(children):
-                azimuth, z = rng.uniform(0, 2 * np.pi), rng.uniform(0.0, 1)
+                azimuth, z = rng.uniform(0, 2 * np.pi), rng.uniform(-0.1, 1)
                 s = np.sqrt(1 - z * z)
                 direction = np.array([s * np.cos(azimuth), s * np.sin(azimuth), z])
-                centre = np.array([cx, cy, cz]) + direction * r * rng.uniform(0.6, 0.9)
+                centre = np.array([cx, cy, cz]) + direction * r * rng.uniform(0.7, 0.95)
                 born.append((tuple(centre), r * radius_scale * rng.uniform(0.7, 1.1)))
         out += born
         parents = born
@@ -58,10 +59,10 @@ def main():
     distance = np.full(len(points), np.inf)
     for centre, radius in balls(rng):
         distance = np.minimum(distance, np.linalg.norm(points - np.array(centre), axis=1) - radius)
-    noise = sum(0.5**i * value_noise(points + 7.3 * i, SEED + i, 3.1 * 2.03**i) for i in range(4))
-    depth = -distance + 0.11 * noise - 0.01
+    noise = sum(0.5**i * value_noise(points + 7.3 * i, SEED + i, 3.1 * 2.03**i) for i in range(5))
+    depth = -distance + 0.05 * noise - 0.01
     base = np.clip((points[:, 2] - 0.22 - 0.03 * noise) / 0.07, 0, 1)
-    density = np.clip(depth / 0.10, 0, 1) * base
+    density = np.clip(depth / 0.05, 0, 1) * base
     border = np.ones(len(points))
     for axis in range(3):
         inside = np.minimum(points[:, axis] - P0[axis], P1[axis] - points[:, axis])
@@ -73,7 +74,7 @@ def main():
         'MakeNamedMedium "cloud" "string type" "heterogeneous"',
         f'  "integer nx" {NX} "integer ny" {NY} "integer nz" {NZ}',
         f'  "point p0" [ {P0[0]} {P0[1]} {P0[2]} ] "point p1" [ {P1[0]} {P1[1]} {P1[2]} ]',
-        '  "rgb sigma_a" [ 0.02 0.02 0.02 ] "rgb sigma_s" [ 59.98 59.98 59.98 ] "float g" 0.7',
+        '  "rgb sigma_a" [ 0.02 0.02 0.02 ] "rgb sigma_s" [ 23.98 23.98 23.98 ] "float g" 0.4',
         '  "float density" [',
     ]
     rows = density.reshape(NZ * NY, NX)

@@ -50,7 +50,7 @@ def main() -> None:
         'MakeNamedMedium "fire" "string type" "heterogeneous"',
         f'  "integer nx" {NX} "integer ny" {NY} "integer nz" {NZ}',
         f'  "point p0" [ {P0[0]} {P0[1]} {P0[2]} ] "point p1" [ {P1[0]} {P1[1]} {P1[2]} ]',
-        '  "rgb sigma_a" [ 5 5 5 ] "rgb sigma_s" [ 1 1 1 ] "float Lescale" 300',
+        '  "rgb sigma_a" [ 4 4 4 ] "rgb sigma_s" [ .6 .6 .6 ] "float Lescale" 110',
         '  "float density" [', numbers(soot, lambda v: f"{v:g}"), "]",
         '  "float temperature" [', numbers(kelvin, lambda v: f"{v:g}"), "]", ""])
     out = pathlib.Path(__file__).resolve().parent.parent / "scenes" / "data" / "fire-density.pbrt.gz"

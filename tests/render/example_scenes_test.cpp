@@ -6,9 +6,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "scene/param_reader.h"
 #include "support/render_scene.h"
 
 namespace pbrtmedia::test {
@@ -64,6 +67,111 @@ TEST_P(ExampleScene, IsInTheGallery) {
   EXPECT_NE(gallery.find("(../scenes/" + GetParam() + ".pbrt)"), std::string::npos);
   EXPECT_NE(gallery.find("(images/" + GetParam() + ".png)"), std::string::npos);
   EXPECT_TRUE(std::filesystem::is_regular_file(kSource / "docs" / "images" / (GetParam() + ".png")));
+}
+
+std::string textOf(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The names X of all "images/X.png" in a text.
+std::vector<std::string> picturesIn(const std::string& text) {
+  static const std::regex kPicture(R"re(images/([^\s)"]+)\.png)re");
+  std::vector<std::string> names;
+  for (std::sregex_iterator at(text.begin(), text.end(), kPicture), end; at != end; ++at) {
+    names.push_back((*at)[1]);
+  }
+  return names;
+}
+
+/// scripts/make_pictures.sh makes what docs/gallery.md shows, from the scene of the same name.
+TEST(Pictures, AllOfThemAreMadeByTheScript) {
+  const std::vector<std::string> made = picturesIn(textOf(kSource / "docs" / "gallery.md"));
+  ASSERT_FALSE(made.empty());
+  EXPECT_NE(textOf(kSource / "scripts" / "make_pictures.sh").find("docs/gallery.md"), std::string::npos);
+  const auto isMade = [&](const std::string& name) {
+    return std::find(made.begin(), made.end(), name) != made.end();
+  };
+  std::vector<std::filesystem::path> texts = {kSource / "README.md"};
+  for (const auto& file : std::filesystem::directory_iterator(kSource / "docs")) {
+    if (file.path().extension() == ".md") texts.push_back(file.path());
+  }
+  for (const std::filesystem::path& file : texts) {
+    for (const std::string& name : picturesIn(textOf(file)))
+      EXPECT_TRUE(isMade(name)) << file << ": " << name;
+  }
+  std::uintmax_t all = 0;
+  for (const auto& file : std::filesystem::directory_iterator(kSource / "docs" / "images")) {
+    EXPECT_TRUE(isMade(file.path().stem().string())) << file.path();
+    EXPECT_LT(file.file_size(), 500'000u) << file.path();
+    all += file.file_size();
+  }
+  EXPECT_LT(all, 3'000'000u);
+}
+
+/// The ```pbrt blocks of a page, in order.
+std::vector<std::string> snippetsOf(const std::string& page) {
+  std::vector<std::string> snippets;
+  std::istringstream lines(page);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line == "```pbrt") snippets.emplace_back();
+    inside = line == "```pbrt" || (inside && line != "```");
+    if (inside && line != "```pbrt") snippets.back() += line + '\n';
+  }
+  return snippets;
+}
+
+/// Whoever copies an example sees a shape: neither black, nor white, nor one colour.
+TEST(DocumentedExample, ShowsAShapeAsItStands) {
+  const std::vector<std::string> snippets = snippetsOf(textOf(kSource / "docs" / "scene-language.md"));
+  ASSERT_GE(snippets.size(), 9u);
+  for (const std::string& snippet : snippets) {
+    SCOPED_TRACE(snippet);
+    Diagnostics diagnostics;
+    SceneDescription world = parsedWorld(snippet, kSource / "docs", diagnostics);
+    const Construction scene = constructDescription(world, {}, diagnostics);
+    const std::unique_ptr<Sampler> sampler = scene.sampler->clone();
+    RenderCounters counters;
+    RunningStats luminances;  // of pixels
+    const Bounds2i pixels = scene.film->pixelBounds();
+    constexpr int kColumns = 24, kRows = 14, kSamples = 4;
+    int white = 0;
+    for (int i = 0; i < kColumns * kRows; ++i) {
+      const Point2i pixel{(2 * (i % kColumns) + 1) * pixels.width() / (2 * kColumns),
+                          (2 * (i / kColumns) + 1) * pixels.height() / (2 * kRows)};
+      double luminance = 0;
+      for (int n = 0; n < kSamples; ++n) {
+        luminance += static_cast<double>(
+            renderSample(*scene.camera, *sampler, *scene.integrator, pixel, n, kSamples, 0, counters)
+                .luminance());
+      }
+      luminances.add(luminance / kSamples);
+      white += luminance / kSamples >= 1 ? 1 : 0;
+    }
+    EXPECT_GT(luminances.mean(), 0.005);
+    EXPECT_LT(luminances.mean(), 0.7);
+    EXPECT_LT(white, kColumns * kRows / 3);
+    EXPECT_GT(luminances.variance(), 1e-4) << "one colour";
+    EXPECT_EQ(counters.droppedTotal(), 0u);
+  }
+}
+
+TEST_P(ExampleScene, HasAPictureOfItsOwnSize) {
+  Diagnostics diagnostics;
+  const std::vector<std::filesystem::path> files = {kSource / "scenes" / (GetParam() + ".pbrt")};
+  std::vector<SceneDescription> worlds = parseFiles(files, diagnostics);
+  ASSERT_EQ(worlds.size(), 1u) << diagnostics.format();
+  const std::string png = textOf(kSource / "docs" / "images" / (GetParam() + ".png"));
+  ASSERT_GT(png.size(), 24u);
+  const auto sideAt = [&](std::size_t at) {  // of the header, big-endian
+    int side = 0;
+    for (std::size_t i = 0; i < 4; ++i) side = 256 * side + static_cast<unsigned char>(png[at + i]);
+    return side;
+  };
+  ParamReader film(worlds.front().film, diagnostics, "film");
+  EXPECT_EQ(sideAt(16), film.findInt("xresolution", 0));
+  EXPECT_EQ(sideAt(20), film.findInt("yresolution", 0));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ExampleScene, testing::ValuesIn(exampleScenes()),
