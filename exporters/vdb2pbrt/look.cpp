@@ -48,8 +48,8 @@ std::vector<double> columns(const Volume& volume, UpAxis up) {
   const Vec3d away = normalize(f.look - f.eye), right = f.right, upward = cross(right, away);
   const double radius = length(box.diagonal()) / 2;
   for (int i = 0; i < kRays * kRays; ++i) {
-    const double x = (2 * (i % kRays + 0.5) / kRays - 1) * radius,
-                 y = (2 * (i / kRays + 0.5) / kRays - 1) * radius;
+    const int column = i % kRays, row = i / kRays;
+    const double x = (2 * (column + 0.5) / kRays - 1) * radius, y = (2 * (row + 0.5) / kRays - 1) * radius;
     const Vec3d middle = box.centre() + x * right + y * upward;
     double sum = 0;
     for (const VdbDensity& density : volume.densities()) {

@@ -110,7 +110,9 @@ void convertSequence(const SequenceOptions& s, const ConversionOptions& options,
         frameName(s.input, frames[i]), frameName(s.output, frames[i]), common,
         [&](const std::string& line) { once(name, line); },
         [&](const std::string& what, double share) {
-          if (progress) progress(name + ", " + place + ": " + what, share);
+          std::string line = name;
+          line.append(", ").append(place).append(": ").append(what);
+          if (progress) progress(line, share);
         });
   }
 }
