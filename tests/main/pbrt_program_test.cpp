@@ -239,9 +239,13 @@ TEST_F(Pbrt, TellsWhatItBuiltAndWarnsUnlessQuiet) {
   EXPECT_NE(verbose.output.find("no lights"), std::string::npos) << verbose.output;
   EXPECT_EQ(pbrt("--quiet --spp 1 --outfile o.exr a.pbrt").output, "");
   folder_.write("bad.pbrt", "WorldBegin\nShape \"sphear\"\nWorldEnd\n");
-  const ProcessResult bad = pbrt("--quiet --outfile o.exr bad.pbrt");
+  const ProcessResult bad = pbrt("--quiet --strict --outfile o.exr bad.pbrt");
   EXPECT_EQ(bad.status, 1);
   EXPECT_NE(bad.output.find("sphear"), std::string::npos) << "errors stay: " << bad.output;
+  folder_.write("bad.pbrt", "WorldBegin\nShpae \"sphere\"\nWorldEnd\n");
+  const ProcessResult unreadable = pbrt("--quiet --outfile o.exr bad.pbrt");
+  EXPECT_EQ(unreadable.status, 1);
+  EXPECT_NE(unreadable.output.find("Shpae"), std::string::npos) << unreadable.output;
 }
 
 TEST_F(Pbrt, SaysWhenThereIsNothingToRender) {
@@ -259,7 +263,7 @@ TEST_F(Pbrt, ShowsEveryProblemOfASceneAtOnceAndWritesNothing) {
                 "Shape \"sphere\" \"float radius\" -1\n"
                 "LightSource \"infinite\" \"string mapname\" \"nowhere.exr\"\n"
                 "WorldEnd\n");
-  const ProcessResult r = pbrt("--outfile o.exr bad.pbrt");
+  const ProcessResult r = pbrt("--strict --outfile o.exr bad.pbrt");
   EXPECT_EQ(r.status, 1);
   EXPECT_NE(r.output.find("bad.pbrt:1:"), std::string::npos) << r.output;
   EXPECT_NE(r.output.find("xresolution"), std::string::npos) << r.output;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pbrtmedia::test {
@@ -348,5 +349,9 @@ inline std::vector<const char*> renderedCases() {
 
   };
 }
+
+/// Of those the one whose pixels differ from PBRT-v3's by more than noise, for a reason that the docs give:
+/// samples of a grid below 0 count as 0 before they are interpolated, in PBRT-v3 after (0.08 % of the mean).
+inline bool differsInPixels(std::string_view name) { return name == "density-negative"; }
 
 }  // namespace pbrtmedia::test
