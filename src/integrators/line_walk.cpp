@@ -131,6 +131,7 @@ CoincidentSurfaces LineWalk::coincidentWith(const SceneHit& hit, const SurfaceIn
     const SurfaceInteraction at = scene_.surface(other, ray_);
     found.add({other, at.n, at.p});
   }
+  ahead_.clear();
   ended_ = true;
   if (!scene_.mayTouchBoundary(si.p, hit)) return found;
   // Of what lies beyond, t alone says little where the ray comes from far away: points know more.

@@ -51,8 +51,13 @@ class ConstructNanoVdbEmission : public testing::Test {
       const double t = 0.01 * i + 0.005;
       if (emissionAt(a, up.at(t)).isBlack()) continue;
       ++emitting;
-      const Segment there{up.o, up.d, t - 1e-6, t + 1e-6};
-      EXPECT_GT(medium.sampleEmission(there, rng, counters).count, 0u) << t;
+      const Segment there{up.o, up.d, t - 0.005, t + 0.005};
+      // In dense cells free flights find it, which end in so short a stretch now and then only.
+      bool isFound = false;
+      for (int k = 0; k < 400 && !isFound; ++k) {
+        isFound = medium.sampleEmission(there, rng, counters).count > 0;
+      }
+      EXPECT_TRUE(isFound) << t;
       EXPECT_GT(volume->directionDensity(there), 0) << t;
     }
     EXPECT_GT(emitting, 20u);
