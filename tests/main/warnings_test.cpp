@@ -112,10 +112,12 @@ TEST(DescribeFaults, GivesTheAdviceThatHelps) {
       "Translate 0 0 1\nMediumInterface \"b\" \"\"\nShape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] "
       "\"point P\" [ -9 -9 0 9 -9 0 0 9 0 ]\n");
   EXPECT_TRUE(has(open, "medium \"b\" it is open")) << open;
-  // Rays that enter by a hole and leave by the shell.
-  const std::string holes = faultsOf(
-      "Texture \"t\" \"float\" \"checkerboard\" \"float uscale\" 16 \"float vscale\" 16\nMaterial \"none\"\n"
-      "MediumInterface \"b\" \"\"\nTranslate 0 0 2\nShape \"sphere\" \"texture alpha\" \"t\"\n");
+  // Cells of unit cubes: where the front is a hole the back is none, so rays enter by the hole and meet the
+  // back.
+  std::string box = test::mediumBox("b", {-1, -1, 1.5}, {1, 1, 2.5});
+  box.insert(box.find("\"trianglemesh\"") + 14, " \"texture alpha\" \"t\"");
+  const std::string holes =
+      faultsOf("Texture \"t\" \"float\" \"checkerboard\" \"integer dimension\" 3\n" + box);
   EXPECT_TRUE(has(holes, "it has holes where its alpha is 0")) << holes;
 }
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "fields/learned_bounds.h"
+#include "media/medium.h"
 #include "scene/param_reader.h"
 #include "support/render_scene.h"
 
@@ -133,6 +135,11 @@ TEST(DocumentedExample, ShowsAShapeAsItStands) {
     const Construction scene = constructDescription(world, {}, diagnostics);
     const std::unique_ptr<Sampler> sampler = scene.sampler->clone();
     RenderCounters counters;
+    for (Medium* medium : scene.scene->learners()) {
+      LearnedBounds& bounds = *medium->learnedBounds();
+      medium->exploreBounds(0, bounds.inForce().cellCount(), 1, counters);
+      bounds.publish();
+    }
     RunningStats luminances;  // of pixels
     const Bounds2i pixels = scene.film->pixelBounds();
     constexpr int kColumns = 24, kRows = 14, kSamples = 4;
