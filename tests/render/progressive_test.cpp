@@ -161,16 +161,17 @@ TEST_P(ProgressiveImage, IsRightFromTheFirstSampleAfterAWarmUp) {
   // The mean of many renders of one sample a pixel, as merged parts are.
   const std::string ways = GetParam().ways;
   const auto scene = [&](const std::string& bounds) { return cube(16, 1, GetParam().medium(ways + bounds)); };
-  RunningStats exact, explored, unknown;
+  RunningStats exact, explored, unknown, shortfalls;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     exact.add(imageMean(renderText(scene(""), {.seed = seed}).image));
     const Rendered part = renderText(scene(kExplored), {.seed = seed + 1000});
     explored.add(imageMean(part.image));
-    EXPECT_FALSE(part.result.learning[0].isRising()) << part.result.learning[0].shortfall;
+    shortfalls.add(part.result.learning[0].shortfall);
     const Rendered blind = renderText(scene(kUnknown), {.seed = seed + 2000});
     unknown.add(imageMean(blind.image));
     EXPECT_TRUE(blind.result.learning[0].isRising()) << blind.result.learning[0].shortfall;
   }
+  EXPECT_LT(shortfalls.mean(), LearningRecord::kMostShortfall);
   const ZTest same = zTest(explored, exact), blind = zTest(unknown, exact);
   EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
   EXPECT_GT(std::abs(blind.z()), kMaxAbsZ) << "negative control: " << blind;
