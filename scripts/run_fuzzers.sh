@@ -31,21 +31,23 @@ fi
 echo "fuzzing ${targets[*]}: seed $seed (the same again: scripts/run_fuzzers.sh $build $seconds --seed $seed)"
 
 run_one() {
-  local name=$1 work log seeds=()
+  local name=$1 work found log seeds=()
   work=$(mktemp -d)
+  found=$(mktemp -d) # kept when the target fails; what only a child of it ended with is no fault
   log=$build/fuzz_$name.log
   for folder in "$root/tests/fuzz/corpus/$name" "$made/$name"; do
     [ ! -d "$folder" ] || seeds+=("$folder")
   done
   if "$build/bin/fuzz_$name" -seed="$seed" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
-    -print_final_stats=1 -artifact_prefix="$crashes/$name-" "$work" ${seeds[@]+"${seeds[@]}"} >"$log" 2>&1; then
-    echo "fuzz_$name: $(grep -o 'number_of_executed_units: [0-9]*' "$log" | grep -o '[0-9]*$') runs, no fault"
+    -print_final_stats=1 -artifact_prefix="$found/$name-" "$work" ${seeds[@]+"${seeds[@]}"} >"$log" 2>&1; then
+    echo "fuzz_$name: $(grep -o 'number_of_executed_units: [0-9]*' "$log" | grep -o '[0-9]*$' | tail -n 1) runs, no fault"
   else
     echo "fuzz_$name: FAILED with seed $seed" && tail -n 40 "$log"
-    rm -rf "$work"
+    find "$found" -type f -exec cp {} "$crashes" \;
+    rm -rf "$work" "$found"
     return 1
   fi
-  rm -rf "$work"
+  rm -rf "$work" "$found"
 }
 
 failed=0

@@ -55,7 +55,7 @@ std::string encode(ImageFormat format, const Image& image, const WriteOptions& o
 
 }  // namespace
 
-Image::Image(int width, int height, std::vector<std::string> channels)
+Image::Image(int width, int height, const std::vector<std::string>& channels)
     : Image(width, height, channels, std::vector<float>(checkedCount(width, height, channels.size()))) {}
 
 Image::Image(int width, int height, std::vector<std::string> channels, std::vector<float> data)

@@ -21,7 +21,7 @@ class Image {
   Image() = default;
   /// Black; both windows are (0, 0) - (width, height). Throws std::invalid_argument for a negative size, no
   /// channels, or a repeated channel name.
-  Image(int width, int height, std::vector<std::string> channels = {"R", "G", "B"});
+  Image(int width, int height, const std::vector<std::string>& channels = {"R", "G", "B"});
   /// The same with its numbers, width * height * channels of them; std::invalid_argument for another count.
   Image(int width, int height, std::vector<std::string> channels, std::vector<float> data);
 

@@ -30,17 +30,30 @@ namespace {
 constexpr int kExitBadInput = 1;  // or an image that is not where it should be
 constexpr int kExitStrict = 2;
 
+/// Messages that begin with no place begin with the program's name.
+std::string named(const std::string& messages) {
+  std::string text;
+  std::istringstream lines(messages);
+  for (std::string line; std::getline(lines, line);) {
+    for (const char* severity : {"error: ", "warning: ", "note: "}) {
+      if (line.starts_with(severity)) text += "pbrt: ";
+    }
+    text += line + '\n';
+  }
+  return text;
+}
+
 /// Prints what has been collected; warnings and notes only when not --quiet.
 void show(const Diagnostics& diagnostics, bool quiet) {
   if (!quiet) {
-    std::cerr << diagnostics.format();
+    std::cerr << named(diagnostics.format());
     return;
   }
   Diagnostics errors;
   for (const Diagnostic& d : diagnostics.all()) {
     if (d.severity == Severity::Error) errors.add(d.severity, d.location, d.message);
   }
-  std::cerr << errors.format();
+  std::cerr << named(errors.format());
 }
 
 std::string sceneNames(const Options& options) {

@@ -125,7 +125,7 @@ TEST(AnimatedTransform, WithoutTimeBetweenTheEndsItJumps) {
   const AnimatedTransform jump(Transform(), 0.5, Transform::translate({5, 0, 0}), 0.5);
   EXPECT_EQ(jump.at(0.5).point(Vec3d{}), Vec3d(0, 0, 0));
   EXPECT_EQ(jump.at(0.75).point(Vec3d{}), Vec3d(5, 0, 0));
-  const Bounds3f bounds = jump.motionBounds(Bounds3f(Point3f(0, 0, 0), Point3f(1, 1, 1)));
+  const Bounds3f bounds = jump.motionBounds(Bounds3f{Point3f(0, 0, 0), Point3f(1, 1, 1)});
   EXPECT_LE(bounds.min.x, 0);
   EXPECT_GE(bounds.max.x, 6);
 }

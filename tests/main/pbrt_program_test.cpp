@@ -252,6 +252,7 @@ TEST_F(Pbrt, SaysWhenThereIsNothingToRender) {
   folder_.write("options.pbrt", "Film \"image\"\n");
   const ProcessResult r = pbrt("options.pbrt");
   EXPECT_EQ(r.status, 1);
+  EXPECT_TRUE(r.output.starts_with("pbrt: error: ")) << r.output;
   EXPECT_NE(r.output.find("WorldBegin"), std::string::npos) << r.output;
 }
 
