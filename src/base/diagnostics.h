@@ -57,8 +57,8 @@ class Diagnostics {
 
   /// --strict: what `tolerated` reports is an error.
   bool strict = false;
-  /// A problem that PBRT-v3 renders in spite of: a warning, an error when `strict`; either way the message says
-  /// that --strict decides.
+  /// A problem that PBRT-v3 renders in spite of: a warning, an error when `strict`; the message says that
+  /// --strict decides.
   void tolerated(const SourceLocation& at, std::string message);
 
   /// Keeps the text of an input that cannot be read again (standard input), for excerpts.
