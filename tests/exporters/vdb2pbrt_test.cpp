@@ -196,7 +196,7 @@ TEST_F(Vdb2Pbrt, ClampsCountsRefusesOrKeepsNegativeValues) {
   options.negative = NegativeRule::Error;
   EXPECT_NE(refusal(VdbKind::Negative, options).find("expected >= 0"), std::string::npos);
   options.negative = NegativeRule::Keep;
-  EXPECT_NE(convert(VdbKind::Negative, options).find("the renderer will refuse them"), std::string::npos);
+  EXPECT_NE(convert(VdbKind::Negative, options).find("the renderer will take them as 0"), std::string::npos);
   EXPECT_THROW(NanoVdbField({in("t.nvdb"), "", {}}, Transform()), SceneError);
 }
 
