@@ -34,8 +34,9 @@ void check(VdbDensity& grid, bool isDensity, const ConversionOptions& options, c
   const VdbDensity::Findings found = grid.checkValues(options.negative, options.nan);
   noticeChanged(name, found.notFinite, "no finite number", "they are now 0", notice);
   noticeChanged(name, found.negative, "negative",
-                options.negative == NegativeRule::Clamp ? "they are now 0"
-                                                        : "they are kept, and the renderer will take them as 0",
+                options.negative == NegativeRule::Clamp
+                    ? "they are now 0"
+                    : "they are kept, and the renderer will take them as 0",
                 notice);
   if (grid.activeVoxels() == 0) {
     notice(name + " has no active voxels: " + (isDensity ? "the medium is clear" : "nothing glows"));
