@@ -20,10 +20,12 @@ if [ ${#names[@]} -eq 0 ]; then
 fi
 made=$(mktemp -d)
 trap 'rm -r "$made"' EXIT
+ln -s "$root/scenes" "$made/scenes"
 status=0
 for name in "${names[@]}"; do
   picture=$root/docs/images/$name.png
-  "$bin/pbrt" "$root/scenes/$name.pbrt" --seed 0 --quiet --outfile "$made/$name.exr"
+  # The command stands in the picture: no folder of this machine in it.
+  (cd "$made" && PATH=$bin:$PATH pbrt "scenes/$name.pbrt" --seed 0 --quiet --outfile "$name.exr")
   "$bin/imgtool" convert "$made/$name.exr" "$made/$name.png"
   if ! $check; then
     cp "$made/$name.png" "$picture"
