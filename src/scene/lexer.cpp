@@ -143,6 +143,11 @@ std::string_view Lexer::lineAround(const char* p, std::ptrdiff_t most) const {
   return {first, static_cast<std::size_t>(last - first)};
 }
 
+std::uint32_t Lexer::lastLine() const {
+  const bool endsLine = p_ != end_ && end_[-1] == '\n';
+  return line_ + static_cast<std::uint32_t>(std::count(p_, end_, '\n')) - (endsLine ? 1 : 0);
+}
+
 std::string unescaped(std::string_view raw, const SourceLocation& at) {
   const std::string_view body = raw.substr(1, raw.size() - 2);
   std::string text;

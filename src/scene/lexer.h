@@ -44,6 +44,8 @@ class Lexer {
   /// The line of the text around `p`, without its end; empty where it is longer than `most` bytes to one
   /// side.
   std::string_view lineAround(const char* p, std::ptrdiff_t most) const;
+  /// Number of the line in which the text ends; the end of the last line begins no further one.
+  std::uint32_t lastLine() const;
   /// Bytes of the text already turned into tokens.
   std::size_t offset() const { return static_cast<std::size_t>(p_ - begin_); }
 

@@ -15,6 +15,7 @@ class Parser {
   Parser(Diagnostics& diagnostics, const ParseOptions& options)
       : diagnostics_(diagnostics),
         options_(options),
+        tokens_(diagnostics),
         params_(tokens_, diagnostics, options.readFiles),
         statements_(tokens_, params_),
         builder_(diagnostics),
@@ -36,7 +37,7 @@ class Parser {
         carryOut(std::move(*s));
       } catch (const SceneError& e) {
         if (builder_.isBehindWorld()) {
-          tokens_.addBehindWorld(e, diagnostics_);
+          tokens_.addBehindWorld(e);
         } else {
           diagnostics_.add(e);
           tokens_.skipToDirective();
@@ -101,7 +102,7 @@ class Parser {
                                         s.folders->underBase(name.text).string() + '"');
     }
     try {
-      tokens_.pushFile(found->path, {s.folders->base, found->path.parent_path()}, s.at, diagnostics_);
+      tokens_.pushFile(found->path, {s.folders->base, found->path.parent_path()}, s.at);
     } catch (const SceneError& e) {
       diagnostics_.add(e);
       diagnostics_.note(name.at, "the file is named here");
@@ -125,9 +126,7 @@ std::vector<SceneDescription> parseFiles(std::span<const std::filesystem::path> 
   Parser parser(diagnostics, options);
   for (const std::filesystem::path& file : files) {
     const std::filesystem::path folder = file == "-" ? std::filesystem::path() : file.parent_path();
-    const bool goOn = parser.read([&](TokenStream& tokens) {
-      tokens.pushFile(file, {folder, folder}, {}, diagnostics);
-    });
+    const bool goOn = parser.read([&](TokenStream& tokens) { tokens.pushFile(file, {folder, folder}, {}); });
     if (!goOn) break;
   }
   return parser.finish();

@@ -57,6 +57,7 @@ class Printer {
       : out_(out),
         diagnostics_(diagnostics),
         options_(options),
+        tokens_(diagnostics, /*keepComments=*/true),
         params_(tokens_, diagnostics, /*readFiles=*/true),
         statements_(tokens_, params_) {}
 
@@ -75,7 +76,7 @@ class Printer {
       if (diagnostics_.errorCount() == errors) printComments(tokens_.tokensTaken() + 1);
     } catch (const SceneError& e) {
       if (isBehindWorld_) {
-        tokens_.addBehindWorld(e, diagnostics_);
+        tokens_.addBehindWorld(e);
       } else {
         diagnostics_.add(e);
       }
@@ -188,7 +189,7 @@ class Printer {
   std::ostream& out_;
   Diagnostics& diagnostics_;
   const PrintOptions& options_;
-  TokenStream tokens_{/*keepComments=*/true};
+  TokenStream tokens_;
   ParamParser params_;
   StatementReader statements_;
   std::size_t indent_ = 0, meshes_ = 0;
@@ -202,7 +203,7 @@ void printFiles(std::span<const std::filesystem::path> files, std::ostream& out,
   Printer printer(out, diagnostics, options);
   for (const std::filesystem::path& file : files) {
     const std::filesystem::path folder = file == "-" ? std::filesystem::path() : file.parent_path();
-    printer.print([&](TokenStream& tokens) { tokens.pushFile(file, {folder, folder}, {}, diagnostics); });
+    printer.print([&](TokenStream& tokens) { tokens.pushFile(file, {folder, folder}, {}); });
   }
 }
 

@@ -76,12 +76,12 @@ void TokenStream::pushText(std::string_view text, std::string_view shownName, In
 }
 
 void TokenStream::pushFile(const std::filesystem::path& path, InputFolders folders,
-                           const SourceLocation& includedAt, Diagnostics& diagnostics) {
+                           const SourceLocation& includedAt) {
   constexpr const char* kStdin = "<stdin>";
   const bool isStdin = path == "-";
   FileBytes file = isStdin ? FileBytes::readDescriptor(0, kStdin) : FileBytes::open(path);
   const std::string_view text = file.text();
-  if (isStdin && text.size() <= kKeptText) diagnostics.keepText(kStdin, std::string(text));
+  if (isStdin && text.size() <= kKeptText) diagnostics_.keepText(kStdin, std::string(text));
   std::error_code ignored;
   push(std::move(file), text, isStdin ? kStdin : path.string(), std::move(folders),
        isStdin ? std::filesystem::path() : std::filesystem::weakly_canonical(path, ignored), includedAt);
@@ -107,6 +107,8 @@ const Token& TokenStream::peek() {
       comments_.push_back({std::string(token.raw), taken_ + 1});
     } else if (token.kind == Token::Kind::End && open_.size() > 1) {
       open_.pop_back();
+    } else if (token.kind == Token::Kind::Unclosed && open_.size() > 1 && !skipping_) {
+      dropRestOfFile(token);
     } else {
       peeked_ = token;
     }
@@ -140,9 +142,24 @@ std::optional<SceneError> TokenStream::missingQuote(const Token& token) const {
   return SceneError(at, missing->message);
 }
 
-void TokenStream::throwUnclosed(const Token& token) const {
-  if (const auto missing = missingQuote(token)) throw *missing;
-  throw SceneError(locate(token), "the string has no closing \" on its line");
+SceneError TokenStream::unclosed(const Token& token) const {
+  if (auto missing = missingQuote(token)) return *missing;
+  return {locate(token), "the string has no closing \" on its line"};
+}
+
+void TokenStream::throwUnclosed(const Token& token) const { throw unclosed(token); }
+
+void TokenStream::dropRestOfFile(const Token& unclosedString) {
+  const SceneError e = unclosed(unclosedString);
+  const SourceLocation includedAt = open_.back().includedAt;
+  const std::uint32_t first = unclosedString.line, last = open_.back().lexer.lastLine();
+  open_.pop_back();
+  const std::string dropped = last > first ? "from here on this file, lines " + std::to_string(first) +
+                                                 " to " + std::to_string(last) + ", is left out"
+                                           : "the rest of this line, the last of the file, is left out";
+  diagnostics_.tolerated(e.location(), std::string(e.what()) + "; " + dropped +
+                                           ", as in PBRT-v3, which goes on behind the Include at " +
+                                           includedAt.toString());
 }
 
 std::size_t TokenStream::readFloats(float* out, std::size_t most) {
@@ -169,21 +186,21 @@ void TokenStream::releaseConsumed() {
 }
 
 void TokenStream::skipToDirective() {
-  for (;;) {
-    const Token& token = peek();
-    if (token.kind == Token::Kind::End) return;
-    if (token.kind == Token::Kind::Word && findDirective(token.raw)) return;
+  skipping_ = true;
+  while (peek().kind != Token::Kind::End &&
+         !(peek().kind == Token::Kind::Word && findDirective(peek().raw))) {
     take();
   }
+  skipping_ = false;
 }
 
-void TokenStream::addBehindWorld(const SceneError& e, Diagnostics& diagnostics) {
+void TokenStream::addBehindWorld(const SceneError& e) {
   for (;; take()) {
     skipToDirective();
     if (peek().kind == Token::Kind::End) break;
-    if (findDirective(peek().raw)->id == Directive::WorldBegin) return diagnostics.add(e);
+    if (findDirective(peek().raw)->id == Directive::WorldBegin) return diagnostics_.add(e);
   }
-  diagnostics.tolerated(
+  diagnostics_.tolerated(
       e.location(), std::string(e.what()) + "; this is behind the last WorldEnd, so the rest is not read");
 }
 

@@ -16,16 +16,18 @@
 namespace pbrtmedia {
 
 /// The tokens of a file with those of included files in place. The end of an included file is not seen:
-/// reading goes on in the includer. A token's text is valid until the next token is peeked or taken.
+/// reading goes on in the includer, and so it does, tolerated, at a string of it that is not closed
+/// (reference 1). A token's text is valid until the next token is peeked or taken.
 class TokenStream {
  public:
-  explicit TokenStream(bool keepComments = false) : keepComments_(keepComments) {}
+  /// `diagnostics` must outlive the stream.
+  explicit TokenStream(Diagnostics& diagnostics, bool keepComments = false)
+      : diagnostics_(diagnostics), keepComments_(keepComments) {}
 
   /// Reads on in a file; "-" is standard input. Without `includedAt` it takes the place of the one before.
   /// Throws SceneError when it cannot be read or is no text.
-  /// A stream that cannot be read twice is kept in `diagnostics` for excerpts, if it is small.
-  void pushFile(const std::filesystem::path& path, InputFolders folders, const SourceLocation& includedAt,
-                Diagnostics& diagnostics);
+  /// A stream that cannot be read twice is kept in the diagnostics for excerpts, if it is small.
+  void pushFile(const std::filesystem::path& path, InputFolders folders, const SourceLocation& includedAt);
   /// Reads on in a text that outlives the stream.
   void pushText(std::string_view text, std::string_view shownName, InputFolders folders);
 
@@ -46,7 +48,7 @@ class TokenStream {
   void skipToDirective();
   /// Reports a problem behind a WorldEnd and skips to the next WorldBegin. Without one it is tolerated:
   /// PBRT-v3 ends there, but has rendered the worlds before it.
-  void addBehindWorld(const SceneError& e, Diagnostics& diagnostics);
+  void addBehindWorld(const SceneError& e);
 
   /// Hash of every text pushed so far, in order.
   std::uint64_t textHash() const { return textHash_; }
@@ -80,14 +82,19 @@ class TokenStream {
   void push(std::optional<FileBytes> file, std::string_view text, std::string_view shownName,
             InputFolders folders, std::filesystem::path canonical, const SourceLocation& includedAt);
   void releaseConsumed();
+  SceneError unclosed(const Token& token) const;
+  /// Goes back to the includer, as there is an unclosed string in the included file, and says so.
+  void dropRestOfFile(const Token& unclosedString);
   void addToHash(const FileBytes* file, std::string_view text);
 
+  Diagnostics& diagnostics_;
   std::vector<Open> open_;
   std::vector<Origin> origins_;
   std::optional<Token> peeked_;
   std::vector<Comment> comments_;
   std::size_t taken_ = 0;
   std::uint64_t textHash_ = 0;
+  bool skipping_ = false;  ///< behind an error: no file is left before its end
   bool keepComments_;
 };
 

@@ -7,8 +7,9 @@
 namespace pbrtmedia {
 namespace {
 
-Parsed parsePath(const std::filesystem::path& file, const ParseOptions& options = {}) {
+Parsed parsePath(const std::filesystem::path& file, const ParseOptions& options = {}, bool strict = false) {
   Parsed p;
+  p.diagnostics.strict = strict;
   const std::filesystem::path files[] = {file};
   p.scenes = parseFiles(files, p.diagnostics, options);
   return p;
@@ -114,6 +115,97 @@ TEST(Include, AParameterListGoesOnInTheIncluder) {
       "main.pbrt", "WorldBegin Include \"inc.pbrt\" \"float zmin\" [-1] Shape \"disk\" WorldEnd"));
   EXPECT_EQ(p.messages(), "");
   EXPECT_EQ(p.scene().shapes.at(0).params.size(), 2u);
+}
+
+TEST(Include, ListsAndTransformationsGoOnInTheIncluder) {
+  const TemporaryFolder folder;
+  folder.write("list.pbrt", "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [ 0 0 0  1 0");
+  folder.write("numbers.pbrt", "Translate 1 2");
+  folder.write("value.pbrt", "Shape \"sphere\" \"float radius\"");
+  Parsed p =
+      parsePath(folder.write("main.pbrt",
+                             "WorldBegin Include \"numbers.pbrt\" 3\nInclude \"list.pbrt\" 0  0 1 0 ]\n"
+                             "Include \"value.pbrt\" 2 WorldEnd"));
+  EXPECT_EQ(p.messages(), "");
+  ASSERT_EQ(p.scene().shapes.size(), 2u);
+  EXPECT_EQ(p.scene().shapes[0].ctm->start.point(Vec3d{}).z, 3);
+  EXPECT_EQ(p.scene().shapes[0].params.find(ParamKind::Point3, "P")->size(), 3u);
+  EXPECT_EQ(p.scene().shapes[1].params.find(ParamKind::Float, "radius")->size(), 1u);
+}
+
+// ---- A string that is not closed ends the included file, and the includer goes on -----------------------
+
+TEST(UnclosedString, DropsTheRestOfAnIncludedFile) {
+  const TemporaryFolder folder;
+  folder.write("inc.pbrt",
+               "Shape \"a\"\nShape \"b\" \"float radius\" 2 \"float zmin -1\nShape \"c\"\nShape \"d\"\n");
+  const auto main = folder.write("main.pbrt", "WorldBegin\n  Include \"inc.pbrt\"\nShape \"e\"\nWorldEnd");
+  Parsed p = parsePath(main);
+  EXPECT_FALSE(p.diagnostics.hasErrors()) << p.messages();
+  EXPECT_EQ(p.diagnostics.all().size(), 1u);
+  EXPECT_NE(
+      p.messages().find("inc.pbrt:2:28: warning: the string has no closing \" on its line; from here on "
+                        "this file, lines 2 to 4, is left out, as in PBRT-v3, which goes on behind the "
+                        "Include at " +
+                        main.string() + ":2:3 [an error with --strict]"),
+      std::string::npos)
+      << p.messages();
+  ASSERT_EQ(p.scene().shapes.size(), 3u);
+  EXPECT_EQ(p.scene().shapes[1].type, "b");
+  EXPECT_EQ(p.scene().shapes[1].params.size(), 1u);
+  EXPECT_EQ(p.scene().shapes[2].type, "e");
+  const Parsed strict = parsePath(main, {}, true);
+  EXPECT_EQ(strict.diagnostics.errorCount(), 1u) << strict.messages();
+}
+
+TEST(UnclosedString, EndsOnlyTheFileItStandsIn) {
+  const TemporaryFolder folder;
+  folder.write("outer.pbrt", "Include \"inner.pbrt\"\nShape \"outer\"");
+  folder.write("inner.pbrt", "Shape \"inner\"\n\"oops");
+  Parsed p =
+      parsePath(folder.write("main.pbrt", "WorldBegin Include \"outer.pbrt\" Shape \"main\" WorldEnd"));
+  EXPECT_FALSE(p.diagnostics.hasErrors()) << p.messages();
+  EXPECT_NE(
+      p.messages().find("inner.pbrt:2:1: warning: the string has no closing \" on its line; the rest of "
+                        "this line, the last of the file, is left out"),
+      std::string::npos)
+      << p.messages();
+  ASSERT_EQ(p.scene().shapes.size(), 3u);
+  EXPECT_EQ(p.scene().shapes[1].type, "outer");
+}
+
+TEST(UnclosedString, OfTheMainFileIsAnError) {
+  const TemporaryFolder folder;
+  const Parsed p = parsePath(folder.write("main.pbrt", "WorldBegin\nShape \"a\" \"float radius\nWorldEnd"));
+  EXPECT_EQ(p.diagnostics.errorCount(), 1u);
+  EXPECT_NE(p.messages().find("main.pbrt:2:11: error: the string has no closing"), std::string::npos)
+      << p.messages();
+  // Behind the last world the image is there.
+  const Parsed behind = parsePath(folder.write("behind.pbrt", "WorldBegin WorldEnd\nFilm \"image"));
+  EXPECT_FALSE(behind.diagnostics.hasErrors()) << behind.messages();
+  EXPECT_EQ(behind.scenes.size(), 1u);
+}
+
+TEST(UnclosedString, MayLeaveTheIncluderWithWhatIsNoValue) {
+  // PBRT-v3 takes the next word of the includer for the value, and ends at it.
+  const TemporaryFolder folder;
+  folder.write("inc.pbrt", "Shape \"a\" \"string filename\" \"x.ply\nShape \"b\"");
+  const Parsed p =
+      parsePath(folder.write("main.pbrt", "WorldBegin Include \"inc.pbrt\"\nShape \"c\" WorldEnd"));
+  EXPECT_EQ(p.diagnostics.errorCount(), 1u) << p.messages();
+  EXPECT_NE(
+      p.messages().find("main.pbrt:2:1: error: parameter \"string filename\": found the directive Shape, "
+                        "expected a value"),
+      std::string::npos)
+      << p.messages();
+}
+
+TEST(UnclosedString, BehindAnErrorDoesNotHideTheOthersOfItsFile) {
+  const TemporaryFolder folder;
+  folder.write("inc.pbrt", "Shape sphere\"\nActiveTransform Both\nTexture 1\nShape \"d\" \"e\n");
+  const Parsed p = parsePath(folder.write("main.pbrt", "WorldBegin Include \"inc.pbrt\" WorldEnd"));
+  EXPECT_EQ(p.diagnostics.errorCount(), 3u) << p.messages();
+  EXPECT_EQ(p.diagnostics.all().size(), 4u) << p.messages();
 }
 
 TEST(Include, DirectoriesAndForeignFilesAreNamed) {
