@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -102,29 +103,25 @@ constexpr double kMaxMeanDifference = 0.005;  // of the reference's mean, as in 
 constexpr double kNoises = 2.0 / kSeeds;
 constexpr double kMaxNoiseRatio = 2;  // squared distance of reference and mean image over what noise explains
 
-class RenderedCase : public testing::TestWithParam<const char*> {};
+Image referenceOf(const std::string& name) { return readImage(caseFolder() / "reference" / (name + ".exr")); }
+std::filesystem::path sceneOf(const std::string& name) { return caseFolder() / (name + ".pbrt"); }
 
-TEST_P(RenderedCase, AgreesWithPbrtUpToNoise) {
-  const std::string name = GetParam();
-  if (!std::filesystem::is_directory(caseFolder())) GTEST_SKIP() << "the cases are not beside this checkout";
-  const Image reference = readImage(caseFolder() / "reference" / (name + ".exr"));
+/// Compares means, and pixels by the noise that is left in both; `pixelsToo`: these must agree, else differ.
+void expectSameUpToNoise(const std::string& name, bool pixelsToo) {
+  const Image reference = referenceOf(name);
   std::vector<Image> images;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    images.push_back(renderFile(caseFolder() / (name + ".pbrt"), {.seed = seed}).image);
+    images.push_back(renderFile(sceneOf(name), {.seed = seed}).image);
   }
   ASSERT_EQ(images[0].width(), reference.width());
   ASSERT_EQ(images[0].height(), reference.height());
 
   double squaredDistance = 0, variance = 0;
-  std::array<RunningStats, 3> means;
-  std::array<double, 3> referenceMean{};
   for (std::size_t c = 0; c < 3; ++c) {
-    referenceMean[c] = imageMean(reference, c);
-    for (const Image& image : images) means[c].add(imageMean(image, c));
-  }
-  for (int y = 0; y < reference.height(); ++y) {
-    for (int x = 0; x < reference.width(); ++x) {
-      for (std::size_t c = 0; c < 3; ++c) {
+    RunningStats means;
+    for (const Image& image : images) means.add(imageMean(image, c));
+    for (int y = 0; y < reference.height(); ++y) {
+      for (int x = 0; x < reference.width(); ++x) {
         RunningStats ours;
         for (const Image& image : images) ours.add(image.at(x, y, c));
         const double r = reference.at(x, y, c);
@@ -133,29 +130,25 @@ TEST_P(RenderedCase, AgreesWithPbrtUpToNoise) {
         variance += ours.variance() * kNoises + halfSpacing * halfSpacing;
       }
     }
-  }
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double error = std::sqrt(means[c].variance() * kNoises);
+    const double error = std::sqrt(means.variance() * kNoises), pbrt = imageMean(reference, c);
     std::printf("%-28s channel %zu: mean %.6f, PBRT-v3 %.6f, standard error %.6f\n", name.c_str(), c,
-                means[c].mean(), referenceMean[c], error);
-    EXPECT_LE(std::abs(means[c].mean() - referenceMean[c]),
-              kMaxMeanDifference * referenceMean[c] + 3 * error);
+                means.mean(), pbrt, error);
+    EXPECT_LE(std::abs(means.mean() - pbrt), kMaxMeanDifference * pbrt + 3 * error);
   }
   std::printf("%-28s squared distance %.3f of the noise\n", name.c_str(), squaredDistance / variance);
-  if (differsInPixels(name)) {
-    EXPECT_GT(squaredDistance, kMaxNoiseRatio * variance) << "the difference is gone: so must be its mention";
-  } else {
+  if (pixelsToo) {
     EXPECT_LT(squaredDistance, kMaxNoiseRatio * variance);
+  } else {
+    EXPECT_GT(squaredDistance, kMaxNoiseRatio * variance) << "the difference is gone: so must be its mention";
   }
 }
 
-/// With the sampler and the number of samples of the reference nothing is random: of the image rounding is
-/// left.
-TEST(ComparedCase, BumpsOfInstancesAreThoseOfPbrt) {
-  if (!std::filesystem::is_directory(caseFolder())) GTEST_SKIP() << "the cases are not beside this checkout";
-  const Image reference = readImage(caseFolder() / "reference" / "bump-of-instance.exr");
-  const Image ours = renderFile(caseFolder() / "bump-of-instance.pbrt", {.samplesPerPixel = 1024}).image;
+void expectSamePixels(const std::string& name) {
+  constexpr std::int64_t kSamplesOfReference = 1024;
+  const Image reference = referenceOf(name);
+  const Image ours = renderFile(sceneOf(name), {.samplesPerPixel = kSamplesOfReference}).image;
   ASSERT_EQ(ours.width(), reference.width());
+  ASSERT_EQ(ours.height(), reference.height());
   double squaredDistance = 0;
   for (int y = 0; y < ours.height(); ++y) {
     for (int x = 0; x < ours.width(); ++x) {
@@ -167,37 +160,54 @@ TEST(ComparedCase, BumpsOfInstancesAreThoseOfPbrt) {
   EXPECT_LT(std::sqrt(squaredDistance / (3.0 * ours.width() * ours.height())), 2e-4);  // of values up to 0.4
 }
 
-/// Mean of rows [first, last) and columns of the middle half over that of the reference, green.
-double ratioToPbrt(const std::string& name, int first, int last, std::string& warnings) {
-  const Image reference = readImage(caseFolder() / "reference" / (name + ".exr"));
-  const Rendered ours = renderFile(caseFolder() / (name + ".pbrt"));
-  warnings = ours.warnings;
-  double a = 0, b = 0;
-  for (int y = first; y < last; ++y) {
-    for (int x = 4; x < 12; ++x) {
-      a += reference.at(x, y, 1);
-      b += ours.image.at(x, y, 1);
+void expectFactor(const RenderedScene& scene) {
+  const Image reference = referenceOf(scene.name);
+  const Rendered ours = renderFile(sceneOf(scene.name));
+  EXPECT_NE(ours.warnings.find(scene.said), std::string::npos) << ours.warnings;
+  ASSERT_EQ(ours.image.width(), reference.width());
+  ASSERT_EQ(ours.image.height(), reference.height());
+  double theirs = 0, sum = 0;
+  for (int y = scene.firstRow; y < scene.endRow; ++y) {
+    for (int x = reference.width() / 4; x < reference.width() * 3 / 4; ++x) {
+      theirs += reference.at(x, y, 1);
+      sum += ours.image.at(x, y, 1);
     }
   }
-  return a / b;
+  std::printf("%-28s PBRT-v3 is %.4f times as bright\n", scene.name, theirs / sum);
+  EXPECT_GT(theirs / sum, scene.lowest);
+  EXPECT_LT(theirs / sum, scene.highest);
 }
 
-/// Where our answer stays: by how much PBRT-v3 differs.
-TEST(ComparedCase, LightsInScaledSpacesDifferByTheFactorsThatAreSaid) {
+class RenderedCase : public testing::TestWithParam<RenderedScene> {};
+
+TEST_P(RenderedCase, IsRelatedToPbrtAsDocumented) {
   if (!std::filesystem::is_directory(caseFolder())) GTEST_SKIP() << "the cases are not beside this checkout";
-  std::string warnings;
-  const double sphere = ratioToPbrt("light-scaled-sphere", 4, 16, warnings);
-  EXPECT_NE(warnings.find("with 64 times the area"), std::string::npos) << warnings;
-  EXPECT_GT(sphere, 0.85 * 64);  // less than 64 where the larger sphere is near
-  EXPECT_LT(sphere, 64);
-  const double ball = ratioToPbrt("sky-scaled", 4, 12, warnings);
-  EXPECT_NE(warnings.find("the transformation scales by 0.1"), std::string::npos) << warnings;
-  EXPECT_GT(ball, 0.1);
-  EXPECT_LT(ball, 0.15);
+  switch (GetParam().relation) {
+    case Relation::UpToNoise:
+      return expectSameUpToNoise(GetParam().name, true);
+    case Relation::MeanOnly:
+      return expectSameUpToNoise(GetParam().name, false);
+    case Relation::SameSamples:
+      return expectSamePixels(GetParam().name);
+    case Relation::ByFactor:
+      return expectFactor(GetParam());
+  }
+}
+
+TEST(RenderedCases, AreAllThatThereAre) {
+  if (!std::filesystem::is_directory(caseFolder())) GTEST_SKIP() << "the cases are not beside this checkout";
+  std::set<std::string> references, rows;
+  for (const auto& file : std::filesystem::directory_iterator(caseFolder() / "reference")) {
+    if (file.path().extension() == ".exr") references.insert(file.path().stem().string());
+  }
+  for (const RenderedScene& scene : renderedCases()) rows.insert(scene.name);
+  EXPECT_FALSE(references.empty());
+  EXPECT_EQ(rows, references);
+  EXPECT_EQ(rows.size(), renderedCases().size()) << "a name stands there twice";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RenderedCase, testing::ValuesIn(renderedCases()),
-                         [](const auto& value) { return identifier(value.param); });
+                         [](const auto& value) { return identifier(value.param.name); });
 
 }  // namespace
 }  // namespace pbrtmedia::test
