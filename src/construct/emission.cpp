@@ -161,7 +161,7 @@ EmissionPlan readNanoVdbEmission(const MediumInput& input, const std::filesystem
   constexpr ParamKind kKind = ParamKind::String;
   const auto gridNamed = [&](std::string_view parameter, std::string_view whyBlack,
                              const auto& make) -> EmissionPlan {
-    const std::optional<std::string> name = in.optionalOwnString(parameter);
+    const std::optional<std::string> name = in.optionalString(parameter);
     if (!name) return {};
     return [make, whyBlack, grid = NanoVdbField::Params{.file = file, .grid = *name, .map = {}},
             named = in.locationOf(kKind, parameter), context = in.context(),

@@ -21,7 +21,7 @@ std::string samplersThatServe(const AnyLaw& law) {
 
 AnySampler readFreeFlight(ParamReader& in, const AnyLaw& law, bool walksPieces, bool scatters) {
   AnySampler sampler;
-  const std::optional<std::string> name = in.optionalOwnString("freeflight");
+  const std::optional<std::string> name = in.optionalString("freeflight");
   if (std::optional<AnySampler> found = findSampler(name.value_or("auto"))) {
     sampler = *std::move(found);
   } else if (name && *name != "auto") {

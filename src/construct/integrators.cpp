@@ -153,6 +153,12 @@ std::optional<IntegratorPlan> readIntegrator(SceneDescription& scene, Diagnostic
   const auto* plugin = findPlugin<ReadIntegrator>(kIntegrators, entity, "Integrator", "", diagnostics);
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(entity, diagnostics, "Integrator \"" + entity.type + "\"");
+  std::vector<std::string_view> pbrtNames = {"maxdepth", "rrthreshold", "lightsamplestrategy", "strategy",
+                                             "pixelbounds"};
+  if (instead != nullptr) {
+    for (const auto& [kind, name] : instead->parameters) pbrtNames.push_back(name);
+  }
+  in.setPbrtNames(std::move(pbrtNames));
   IntegratorPlan plan = plugin->read(in);
   plan.pixelBounds = readPixelBounds(in);
   if (instead != nullptr) {

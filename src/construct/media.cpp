@@ -19,6 +19,10 @@ constexpr std::array<Plugin<ReadMedium>, 6> kMedia = {{{"homogeneous", readHomog
                                                        {"analytic", readAnalyticMedium},
                                                        {"texture", readTextureMedium}}};
 
+/// Reference 17.1; all others are ours.
+constexpr std::array<std::string_view, 12> kPbrtNames = {
+    "type", "preset", "sigma_a", "sigma_s", "scale", "g", "nx", "ny", "nz", "density", "p0", "p1"};
+
 }  // namespace
 
 std::optional<MediumPlan> readMedium(MediumDescription& medium, bool isUsed, Diagnostics& diagnostics,
@@ -28,6 +32,7 @@ std::optional<MediumPlan> readMedium(MediumDescription& medium, bool isUsed, Dia
       findPlugin<ReadMedium>(kMedia, medium, context, "it is vacuum, as in PBRT-v3", diagnostics);
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(medium, diagnostics, context);
+  in.setPbrtNames({kPbrtNames.begin(), kPbrtNames.end()});
   std::optional<MediumPlan> plan = plugin->read({in, medium, isUsed, building});
   if (!plan) return std::nullopt;  // who stopped early has not asked for all that there is
   in.reportUnused();

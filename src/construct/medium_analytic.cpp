@@ -52,7 +52,7 @@ std::optional<MediumPlan> readAnalyticMedium(const MediumInput& input) {
   const MediumDescription& medium = input.medium;
   ProceduralMediumParams p;
   readFieldMediumParams(in, medium, DensityKind::Procedural, p);
-  const std::optional<std::string> name = in.optionalOwnString("function");
+  const std::optional<std::string> name = in.optionalString("function");
   if (!name) {
     if (!in.has(ParamKind::String, "function"))
       in.error("parameter \"string function\" is missing" + suggestion("", analyticNames()));

@@ -15,7 +15,7 @@ std::optional<MediumPlan> readNanoVdbMedium(const MediumInput& input) {
   const MediumDescription& medium = input.medium;
   NanoVdbMediumParams p;
   readFieldMediumParams(in, medium, DensityKind::InPieces, p);
-  p.field.grid = in.optionalOwnString("grid").value_or("");
+  p.field.grid = in.optionalString("grid").value_or("");
   p.field.map.scale = in.findFloat("densityscale", 1, Range::nonNegative());
   p.field.map.offset = in.findFloat("densityoffset", 0);
   const std::optional<std::filesystem::path> file = requireVolumeFile(in);

@@ -55,7 +55,7 @@ std::optional<int> optionalIntWithin(ParamReader& in, std::string_view name, Ran
 
 std::size_t findOwnChoice(ParamReader& in, std::string_view name, std::span<const std::string_view> choices,
                           std::size_t fallback) {
-  const std::optional<std::string> word = in.optionalOwnString(name);
+  const std::optional<std::string> word = in.optionalString(name);
   if (!word) return fallback;
   const auto it = std::find(choices.begin(), choices.end(), *word);
   if (it != choices.end()) return static_cast<std::size_t>(it - choices.begin());

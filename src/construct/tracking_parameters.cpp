@@ -14,7 +14,7 @@ std::optional<ParameterValue> readValue(ParamReader& in, const ParameterDescript
   }
   if (d.type == "string") {
     kind = ParamKind::String;
-    return as(in.optionalOwnString(d.name));
+    return as(in.optionalString(d.name));
   }
   if (d.type == "integer") {
     kind = ParamKind::Integer;

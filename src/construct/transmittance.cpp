@@ -24,7 +24,7 @@ const RatioTracking kEstimatorByParameters{.rouletteThreshold = 0.3};
 }  // namespace
 
 std::optional<AnyEstimator> readTransmittance(ParamReader& in, bool walksPieces) {
-  const std::optional<std::string> name = in.optionalOwnString("transmittance");
+  const std::optional<std::string> name = in.optionalString("transmittance");
   bool isAuto = !name || *name == "auto";
   AnyEstimator estimator = kEstimatorByParameters;
   if (name && !isAuto) {
@@ -41,7 +41,7 @@ std::optional<AnyEstimator> readTransmittance(ParamReader& in, bool walksPieces)
   if (!name || !isAuto) {
     if (readParameters(in, estimator)) isAuto = false;
   }
-  if (const std::optional<std::string> lawName = in.optionalOwnString("law")) {
+  if (const std::optional<std::string> lawName = in.optionalString("law")) {
     if (std::optional<AnyLaw> law = findLaw(*lawName)) {
       readParameters(in, *law);
       if (isAuto && !traitsOf(estimator).laws.has(*law)) {

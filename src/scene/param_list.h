@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -76,8 +77,19 @@ class ParamList {
   bool empty() const { return params_.empty(); }
   std::size_t size() const { return params_.size(); }
 
+  /// A declaration that was read as PBRT-v3 reads it and not as it is written: left out, or with other
+  /// values.
+  struct Misread {
+    std::string name;
+    SourceLocation at;
+    std::string found;  ///< "found 3, expected a quoted string"
+  };
+  void addMisread(Misread misread) { misread_.push_back(std::move(misread)); }
+  const std::vector<Misread>& misread() const { return misread_; }
+
  private:
   std::vector<Param> params_;
+  std::vector<Misread> misread_;
 };
 
 }  // namespace pbrtmedia

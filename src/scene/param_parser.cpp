@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "scene/directives.h"
 #include "scene/number.h"
@@ -26,6 +28,7 @@ struct ParamParser::Values {
   /// The first number beyond all bounds, and where it stands.
   std::string infinite;
   SourceLocation infiniteAt;
+  std::optional<ParamList::Misread> misread;  ///< the first
 };
 
 ParamParser::ParamParser(TokenStream& tokens, Diagnostics& diagnostics, bool readFiles)
@@ -40,8 +43,20 @@ void ParamParser::problem(const Values& v, const SourceLocation& at, const std::
   diagnostics_.error(at, whatOf(v) + message);
 }
 
-void ParamParser::toleratedProblem(const Values& v, const SourceLocation& at, const std::string& message) {
-  diagnostics_.tolerated(at, whatOf(v) + message);
+void ParamParser::toleratedProblem(Values& v, const SourceLocation& at, const std::string& found,
+                                   std::string_view consequence) {
+  diagnostics_.tolerated(at, (whatOf(v) + found).append(consequence));
+  addMisread(v, at, found);
+}
+
+SpectrumValues::Tolerate ParamParser::tolerateIn(Values& v) {
+  return [this, &v](const SourceLocation& at, const std::string& found, std::string_view consequence) {
+    toleratedProblem(v, at, found, consequence);
+  };
+}
+
+void ParamParser::addMisread(Values& v, const SourceLocation& at, const std::string& found) {
+  if (!v.misread) v.misread = {v.param.name, at, found};
 }
 
 void ParamParser::checkQuotes(const Token& token) const {
@@ -81,18 +96,32 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
                                "as in PBRT-v3");
     v.type = nullptr;
   } else if (!v.type) {
-    diagnostics_.tolerated(v.param.declaredAt, whatOf(v) + "unknown type \"" + shown(typeName) +
-                                                   "\", left out as in PBRT-v3" + suggestParamType(typeName));
+    toleratedProblem(v, v.param.declaredAt, "unknown type \"" + shown(typeName) + '"',
+                     ", left out as in PBRT-v3" + suggestParamType(typeName));
   } else if (!extra.empty()) {
-    toleratedProblem(v, v.param.declaredAt,
-                     "found " + inQuotes(shown(extra)) + " after the name, which PBRT-v3 ignores");
+    toleratedProblem(v, v.param.declaredAt, "found " + inQuotes(shown(extra)) + " after the name",
+                     ", which PBRT-v3 ignores");
   }
 
   if (tokens_.peek().kind == Token::Kind::Open) {
     v.param.valuesAt = tokens_.locate(tokens_.take());
     v.bracketed = true;
   }
-  if (!v.type) return skipValues(v.bracketed);
+  const bool good = parseValues(folders, v);
+  if (v.misread) list.addMisread(*std::move(v.misread));
+  if (!good) return;
+  if (list.find(v.param.kind, v.param.name)) {
+    diagnostics_.warning(v.param.declaredAt,
+                         whatOf(v) + "given before in this directive; the last one counts");
+  }
+  list.add(std::move(v.param));
+}
+
+bool ParamParser::parseValues(const InputFolders& folders, Values& v) {
+  if (!v.type) {
+    skipValues(v.bracketed);
+    return false;
+  }
   v.param.kind = v.type->kind;
   v.param.tokensPerElement = v.type->perElement;
 
@@ -124,16 +153,18 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
                                                                  : "a number";
     const std::string message = "found " + shown(first.raw) + ", expected " + expected;
     if (strings || isNumber) {
-      toleratedProblem(v, firstAt, message + "; the parameter is left out, as in PBRT-v3");
+      toleratedProblem(v, firstAt, message, "; the parameter is left out, as in PBRT-v3");
     } else {
       checkQuotes(first);
       problem(v, firstAt, message);
     }
-    return skipValues(v.bracketed);
+    skipValues(v.bracketed);
+    return false;
   }
   bool good;
   if (strings || (isEmpty && v.type->words)) {
-    good = readStrings(v) && (v.type->words || spectra_.fromFiles(v.param, folders, whatOf(v)));
+    good =
+        readStrings(v) && (v.type->words || spectra_.fromFiles(v.param, folders, whatOf(v), tolerateIn(v)));
   } else {
     good = readNumbers(v);
   }
@@ -141,11 +172,7 @@ void ParamParser::parseOne(const InputFolders& folders, ParamList& list) {
   if (!v.bracketed && tokens_.peek().kind == Token::Kind::Word && looksLikeNumber(tokens_.peek().raw)) {
     throw SceneError(tokens_.locate(tokens_.peek()), what + "several values need brackets: [ … ]");
   }
-  if (!good) return;
-  if (list.find(v.param.kind, v.param.name)) {
-    diagnostics_.warning(v.param.declaredAt, what + "given before in this directive; the last one counts");
-  }
-  list.add(std::move(v.param));
+  return good;
 }
 
 /// One token as a number, by PBRT-v3's rule where it is none of ours.
@@ -186,7 +213,10 @@ bool ParamParser::appendNumber(Values& v, const Token& token, std::vector<T>& bl
   if constexpr (kIsFloat) {
     block.push_back(value);
   } else {
-    if (value != std::trunc(value)) loose_.addFraction(at, token.raw);
+    if (value != std::trunc(value)) {
+      loose_.addFraction(at, token.raw);
+      addMisread(v, at, "found " + shown(token.raw) + ", expected a whole number");
+    }
     block.push_back(static_cast<int>(value));
   }
   return true;
@@ -293,10 +323,12 @@ bool ParamParser::readNumbers(Values& v) {
   if (const std::size_t excess = v.count % v.type->perElement; excess != 0) {
     toleratedProblem(v, v.param.valuesAt,
                      "found " + std::to_string(v.count) + " numbers, expected a multiple of " +
-                         std::to_string(v.type->perElement) + "; those too many are left out, as in PBRT-v3");
+                         std::to_string(v.type->perElement),
+                     "; those too many are left out, as in PBRT-v3");
     spectral.resize(spectral.size() - std::min(excess, spectral.size()));
   }
-  return v.type->kind != ParamKind::Spectrum || spectra_.fromNumbers(v.param, *v.type, spectral, whatOf(v));
+  return v.type->kind != ParamKind::Spectrum ||
+         spectra_.fromNumbers(v.param, *v.type, spectral, whatOf(v), tolerateIn(v));
 }
 
 /// A single infinite number stands for the largest one ("no limit"); among others it has no meaning.
@@ -308,8 +340,8 @@ bool ParamParser::settleInfinity(Values& v) {
   }
   float& value = std::get<std::vector<float>>(v.param.values).front();
   value = std::copysign(std::numeric_limits<float>::max(), value);
-  toleratedProblem(v, v.infiniteAt,
-                   "found " + v.infinite + ", which is infinite in PBRT-v3; the largest number is taken, " +
+  toleratedProblem(v, v.infiniteAt, "found " + v.infinite + ", expected a finite number",
+                   std::string("; it is infinite in PBRT-v3, the largest number is taken: ") +
                        (value < 0 ? "-" : "") + "3.4028235e38");
   return true;
 }
@@ -337,9 +369,8 @@ bool ParamParser::readStrings(Values& v) {
     if (!v.bracketed) break;
   }
   if (v.type->kind == ParamKind::Texture && strings.size() != 1) {
-    toleratedProblem(v, v.param.valuesAt,
-                     "found " + std::to_string(strings.size()) +
-                         " names, expected one; the parameter is left out, as in PBRT-v3");
+    toleratedProblem(v, v.param.valuesAt, "found " + std::to_string(strings.size()) + " names, expected one",
+                     "; the parameter is left out, as in PBRT-v3");
     return false;
   }
   if (v.type->kind != ParamKind::Bool) {
@@ -349,9 +380,9 @@ bool ParamParser::readStrings(Values& v) {
   auto& bools = v.param.values.emplace<std::vector<std::uint8_t>>();
   for (const std::string& s : strings) {
     if (s != "true" && s != "false") {
-      toleratedProblem(
-          v, v.param.locationOf(bools.size()),
-          "found " + inQuotes(shown(s)) + R"(, expected "true" or "false"; PBRT-v3 takes it as false)");
+      toleratedProblem(v, v.param.locationOf(bools.size()),
+                       "found " + inQuotes(shown(s)) + R"(, expected "true" or "false")",
+                       "; PBRT-v3 takes it as false");
     }
     bools.push_back(s == "true" ? 1 : 0);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/loose_numbers.h"
@@ -25,6 +26,8 @@ class ParamParser {
  private:
   struct Values;  // what is being read
   void parseOne(const InputFolders& folders, ParamList& list);
+  /// Behind the declaration. False: the parameter is left out.
+  bool parseValues(const InputFolders& folders, Values& v);
   bool readNumbers(Values& v);
   bool settleInfinity(Values& v);
   template <class T, class Sink>
@@ -36,8 +39,12 @@ class ParamParser {
   /// How messages about the parameter begin.
   static std::string whatOf(const Values& v);
   void problem(const Values& v, const SourceLocation& at, const std::string& message);
-  /// What PBRT-v3 goes on with.
-  void toleratedProblem(const Values& v, const SourceLocation& at, const std::string& message);
+  /// What PBRT-v3 goes on with: `consequence`.
+  void toleratedProblem(Values& v, const SourceLocation& at, const std::string& found,
+                        std::string_view consequence);
+  SpectrumValues::Tolerate tolerateIn(Values& v);
+  /// Remembers it for those who take nothing but what is written.
+  static void addMisread(Values& v, const SourceLocation& at, const std::string& found);
   /// Throws SceneError when a quote is missing on the line of the token: then nothing else on it makes sense.
   void checkQuotes(const Token& token) const;
 

@@ -15,6 +15,9 @@ std::string number(double x) {
   return {buffer, end};
 }
 
+/// Why it is an error, where the same of another parameter is a warning.
+constexpr const char* kNothingGuessed = "; PBRT-v3 has no such parameter, and nothing is taken in its place";
+
 template <class T>
 std::optional<T> copied(const T* value) {
   return value ? std::optional<T>(*value) : std::nullopt;
@@ -39,10 +42,22 @@ ParamReader::ParamReader(Entity& entity, Diagnostics& diagnostics, std::string c
 
 const Param* ParamReader::find(ParamKind kind, std::string_view name) {
   const auto isThis = [&](const auto& a) { return a.first == kind && a.second == name; };
-  if (std::none_of(asked_.begin(), asked_.end(), isThis)) asked_.emplace_back(kind, name);
+  const bool isNew = std::none_of(asked_.begin(), asked_.end(), isThis);
+  if (isNew) asked_.emplace_back(kind, name);
   const Param* const p = std::as_const(entity_.params).find(kind, name);
+  if (isNew && p && p->size() == 0 && isOurs(name)) {
+    diagnostics_.error(p->valuesAt, context_ + ": parameter " + quotedName(name) + ": found no value");
+  }
   if (p) p->used = true;
   return p;
+}
+
+bool ParamReader::isAsked(std::string_view name) const {
+  return std::any_of(asked_.begin(), asked_.end(), [&](const auto& a) { return a.second == name; });
+}
+
+bool ParamReader::isOurs(std::string_view name) const {
+  return pbrtNames_ && std::find(pbrtNames_->begin(), pbrtNames_->end(), name) == pbrtNames_->end();
 }
 
 template <class T>
@@ -51,9 +66,14 @@ const T* ParamReader::scalar(ParamKind kind, std::string_view name) {
   if (!p) return nullptr;
   const auto& values = std::get<std::vector<T>>(p->values);
   if (values.size() == 1) return values.data();
-  diagnostics_.tolerated(p->valuesAt, context_ + ": parameter " + quotedName(name) + ": found " +
-                                          std::to_string(values.size()) +
-                                          " values, expected 1; it is ignored, as in PBRT-v3");
+  if (isOurs(name) && values.empty()) return nullptr;  // `find` has said so
+  const std::string found = context_ + ": parameter " + quotedName(name) + ": found " +
+                            std::to_string(values.size()) + " values, expected 1";
+  if (isOurs(name)) {
+    diagnostics_.error(p->valuesAt, found);
+  } else {
+    diagnostics_.tolerated(p->valuesAt, found + "; it is ignored, as in PBRT-v3");
+  }
   return nullptr;
 }
 
@@ -162,15 +182,6 @@ std::size_t ParamReader::findChoice(std::string_view name, std::span<const std::
   return fallback;
 }
 
-std::optional<std::string> ParamReader::optionalOwnString(std::string_view name) {
-  const Param* const p = find(ParamKind::String, name);
-  if (!p) return std::nullopt;
-  const auto& values = std::get<std::vector<std::string>>(p->values);
-  if (values.size() == 1) return values.front();
-  error(ParamKind::String, name, "found " + std::to_string(values.size()) + " values, expected 1");
-  return std::nullopt;
-}
-
 std::optional<std::filesystem::path> ParamReader::findInputFile(std::string_view name,
                                                                 std::string_view consequence) {
   const std::string* const file = scalar<std::string>(ParamKind::String, name);
@@ -210,7 +221,17 @@ void ParamReader::error(const std::string& message) {
   diagnostics_.error(entity_.location, context_ + ": " + message);
 }
 
+void ParamReader::reportOursMisread() {
+  if (diagnostics_.strict) return;  // then all of them are errors already
+  for (const ParamList::Misread& m : entity_.params.misread()) {
+    if (!isOurs(m.name) || !isAsked(m.name)) continue;
+    diagnostics_.error(m.at,
+                       context_ + ": parameter " + quotedName(m.name) + ": " + m.found + kNothingGuessed);
+  }
+}
+
 void ParamReader::reportUnused() {
+  reportOursMisread();
   std::vector<std::string_view> names;
   for (const auto& asked : asked_) {
     if (std::find(names.begin(), names.end(), asked.second) == names.end()) names.push_back(asked.second);
@@ -228,7 +249,12 @@ void ParamReader::reportUnused() {
     std::string message = context_ + ": ";
     if (!kinds.empty()) {
       message += "parameter " + quotedName(p.name) + ": found type " + std::string(keyword(p.kind)) +
-                 ", expected " + kinds + "; it is ignored, as in PBRT-v3";
+                 ", expected " + kinds;
+      if (isOurs(p.name)) {
+        diagnostics_.error(p.declaredAt, message + kNothingGuessed);
+        continue;
+      }
+      message += "; it is ignored, as in PBRT-v3";
     } else {
       message += "unknown parameter " + quotedName(p.name);
       message += names.empty() ? "; no parameters are known here" : suggestion(p.name, names);

@@ -51,6 +51,10 @@ class ParamReader {
   const std::string& context() const { return context_; }
   Diagnostics& diagnostics() const { return diagnostics_; }
 
+  /// The parameters that PBRT-v3 has here; without this call, all. What does not fit any other (its type, how
+  /// many values, a word for a number) is an error, never a fallback: nothing of ours is guessed.
+  void setPbrtNames(std::vector<std::string_view> names) { pbrtNames_ = std::move(names); }
+
   // Scalars: exactly one element, else a warning (--strict: an error) and the fallback, as in PBRT-v3.
   // A number outside `range` is always an error.
   float findFloat(std::string_view name, float fallback, Range range = {});
@@ -90,8 +94,6 @@ class ParamReader {
   /// error) listing the choices and gives the fallback.
   std::size_t findChoice(std::string_view name, std::span<const std::string_view> choices,
                          std::size_t fallback);
-  /// A string parameter of our own: more or fewer than one value are an error, as nothing of ours is guessed.
-  std::optional<std::string> optionalOwnString(std::string_view name);
   /// An existing input file named by a string parameter. Nothing when absent, empty or missing; a missing one
   /// is an error, or tolerated where PBRT-v3 renders without it: then `consequence` says how. Found only
   /// beside the including file: a warning.
@@ -106,10 +108,14 @@ class ParamReader {
   void error(const std::string& message);
 
   /// A warning (--strict: an error) for each entry nobody asked for, with the kind that was asked for under
-  /// that name, or the nearest names.
+  /// that name, or the nearest names. Of parameters of our own that were asked for: an error for each that
+  /// cannot be taken as it is written.
   void reportUnused();
 
  private:
+  bool isAsked(std::string_view name) const;
+  bool isOurs(std::string_view name) const;
+  void reportOursMisread();
   template <class T>
   const T* scalar(ParamKind kind, std::string_view name);
   template <class T>
@@ -123,6 +129,7 @@ class ParamReader {
   Diagnostics& diagnostics_;
   std::string context_;
   std::vector<std::pair<ParamKind, std::string>> asked_;
+  std::optional<std::vector<std::string_view>> pbrtNames_;
 };
 
 }  // namespace pbrtmedia

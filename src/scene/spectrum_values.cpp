@@ -12,7 +12,7 @@
 namespace pbrtmedia {
 
 bool SpectrumValues::fromNumbers(Param& param, const ParamType& type, std::span<const float> n,
-                                 const std::string& what) {
+                                 const std::string& what, const Tolerate& tolerate) {
   auto& colours = param.values.emplace<std::vector<Rgb>>();
   param.isConverted = type.spectral != ParamType::Spectral::Rgb;
   const std::size_t per = type.perElement;
@@ -29,7 +29,13 @@ bool SpectrumValues::fromNumbers(Param& param, const ParamType& type, std::span<
       for (; i + per <= n.size(); i += per) {
         switch (type.spectral) {
           case ParamType::Spectral::BlackBody:
-            colours.push_back(blackbody(n[i], n[i + 1], param.locationOf(i / per), what));
+            if (n[i] > 0) {
+              colours.push_back(blackbodyToRgb(n[i], n[i + 1]));
+            } else {
+              tolerate(param.locationOf(i / per), "a black body without temperature",
+                       " is black here; PBRT-v3 makes NaN of it");
+              colours.emplace_back();
+            }
             break;
           case ParamType::Spectral::Xyz:
             colours.push_back(xyzToRgb({n[i], n[i + 1], n[i + 2]}));
@@ -52,14 +58,9 @@ bool SpectrumValues::fromNumbers(Param& param, const ParamType& type, std::span<
   return true;
 }
 
-Rgb SpectrumValues::blackbody(float kelvin, float scale, const SourceLocation& at, const std::string& what) {
-  if (kelvin > 0) return blackbodyToRgb(kelvin, scale);
-  diagnostics_.tolerated(at,
-                         what + "a black body without temperature is black here; PBRT-v3 makes NaN of it");
-  return {};
-}
-
-bool SpectrumValues::fromFiles(Param& param, const InputFolders& folders, const std::string& what) {
+bool SpectrumValues::fromFiles(Param& param, const InputFolders& folders, const std::string& what,
+                               const Tolerate& tolerate) {
+  constexpr std::string_view kBlack = "; black is taken, as in PBRT-v3";
   const auto names = std::get<std::vector<std::string>>(std::move(param.values));
   auto& colours = param.values.emplace<std::vector<Rgb>>();
   param.tokensPerElement = 1;
@@ -72,8 +73,7 @@ bool SpectrumValues::fromFiles(Param& param, const InputFolders& folders, const 
     const SourceLocation at = param.locationOf(i);
     const auto found = folders.locate(names[i]);
     if (!found || !found->canBeOpened()) {
-      diagnostics_.tolerated(at, what + "there is no file \"" + shown(folders.underBase(names[i]).string()) +
-                                     "\"; black is taken, as in PBRT-v3");
+      tolerate(at, "there is no file \"" + shown(folders.underBase(names[i]).string()) + '"', kBlack);
       colours.emplace_back();
       continue;
     }
@@ -86,7 +86,7 @@ bool SpectrumValues::fromFiles(Param& param, const InputFolders& folders, const 
       if (isNew) cached->second = sampledSpectrumToRgb(readSpectrumFile(found->path, &diagnostics_));
     } catch (const SceneError& e) {
       const std::string place = e.location().line > 0 ? e.location().toString() + ": " : "";
-      diagnostics_.tolerated(at, what + place + e.what() + "; black is taken, as in PBRT-v3");
+      tolerate(at, place + e.what(), kBlack);
       cached->second = Rgb();
     } catch (const std::invalid_argument& e) {
       diagnostics_.error(at, what + '"' + found->path.string() + "\": " + e.what());

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "base/diagnostics.h"
 #include "scene/input_folders.h"
@@ -16,21 +18,24 @@ namespace pbrtmedia {
 
 /// Turns what a spectral parameter says into RGB: numbers, or names of files, each of which is read once.
 /// Both functions leave the colours in `param`; false: a problem was reported, beginning with `what`. Black,
-/// and tolerated, are a file that is missing or cannot be read and a black body without temperature.
+/// and handed to `tolerate`, are a file that is missing or cannot be read and a black body without
+/// temperature.
 class SpectrumValues {
  public:
+  using Tolerate =
+      std::function<void(const SourceLocation& at, const std::string& found, std::string_view consequence)>;
+
   /// `readFiles`: false makes every file black, unread.
   SpectrumValues(Diagnostics& diagnostics, bool readFiles)
       : diagnostics_(diagnostics), readFiles_(readFiles) {}
 
   bool fromNumbers(Param& param, const ParamType& type, std::span<const float> numbers,
-                   const std::string& what);
+                   const std::string& what, const Tolerate& tolerate);
   /// The names are the strings that `param` holds.
-  bool fromFiles(Param& param, const InputFolders& folders, const std::string& what);
+  bool fromFiles(Param& param, const InputFolders& folders, const std::string& what,
+                 const Tolerate& tolerate);
 
  private:
-  Rgb blackbody(float kelvin, float scale, const SourceLocation& at, const std::string& what);
-
   Diagnostics& diagnostics_;
   bool readFiles_;
   std::map<std::filesystem::path, std::optional<Rgb>> spectra_;  ///< files read before; nothing: unusable

@@ -83,7 +83,7 @@ TEST(ConstructMedium, SaysWhatIsWrongAndWhere) {
        {kHomogeneous + "\"string overlap\" \"adds\"", "unknown overlap \"adds\"; did you mean \"add\"?", ""},
        {kHomogeneous + "\"string overlap\" \"add\" \"integer priority\" 1",
         "needs \"string overlap\" \"priority\"", ""},
-       {kHomogeneous + "\"float priority\" 1", "found type float, expected integer", "", kTolerated},
+       {kHomogeneous + "\"float priority\" 1", "found type float, expected integer", ""},
        {kHomogeneous + "\"string phase\" \"raleigh\"",
         "unknown phase function \"raleigh\"; did you mean \"rayleigh\"?", ""},
        {kHomogeneous + "\"string phase\" \"henyeygreenstein\" \"float g\" [ .1 .2 ]",

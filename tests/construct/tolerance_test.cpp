@@ -303,6 +303,65 @@ TEST(Tolerance, UnknownWordsOfOwnParametersStayErrors) {
   }
 }
 
+TEST(Tolerance, OwnParametersThatDoNotFitTheirTypeStayErrors) {
+  const std::string grid = "\"string type\" \"heterogeneous\" \"float density\" 1 ";
+  const std::string perlin = "\"string type\" \"perlin\" ";
+  const std::string analytic = "\"string type\" \"analytic\" \"string function\" \"sphere\" ";
+  struct Case {
+    std::string parameters, name, found;
+  };
+  const Case cases[] = {
+      {grid + "\"float supervoxels\" 2", "supervoxels", "found type float, expected integer"},
+      {grid + "\"integer supervoxels\" 2.5", "supervoxels", "found 2.5, expected a whole number"},
+      {grid + "\"int supervoxels\" 2", "supervoxels", "unknown type \"int\""},
+      {grid + "\"string roulettethreshold\" \".5\"", "roulettethreshold",
+       "found type string, expected float"},
+      {grid + "\"float roulettethreshold\" [ .5 .5 ]", "roulettethreshold", "found 2 values, expected 1"},
+      {grid + "\"float roulettethreshold\" \".5\"", "roulettethreshold", "expected a number"},
+      {grid + "\"float transmittance\" 1", "transmittance", "found type float, expected string"},
+      {grid + "\"string transmittance\" 1", "transmittance", "found 1, expected a quoted string"},
+      {grid + "\"string transmittance\" [ ]", "transmittance", "found no value"},
+      {grid + "\"integer freeflight\" 1", "freeflight", "found type integer, expected string"},
+      {grid + "\"bool bounds\" \"true\"", "bounds", "found type bool, expected string"},
+      {grid + "\"integer majorant\" 1", "majorant", "found type integer, expected float"},
+      {grid + "\"float border\" 1", "border", "found type float, expected string"},
+      {grid + "\"float priority\" 1", "priority", "found type float, expected integer"},
+      {grid + "\"float phase\" 1", "phase", "found type float, expected string"},
+      {grid + "\"float Le\" 1", "Le", "found type float, expected rgb"},
+      {grid + "\"rgb Le\" [ 1 1 1 1 ]", "Le", "found 4 numbers, expected a multiple of 3"},
+      {grid + "\"rgb Lescale\" [ 1 1 1 ]", "Lescale", "found type rgb, expected float"},
+      {grid + "\"rgb temperature\" [ 1 1 1 ]", "temperature", "found type rgb, expected float"},
+      {perlin + "\"float octaves\" 2", "octaves", "found type float, expected integer"},
+      {perlin + "\"integer gain\" 1", "gain", "found type integer, expected float"},
+      {analytic + "\"vector center\" [ 0 0 0 ]", "center", "found type vector, expected point"},
+      {analytic + "\"integer radius\" 1", "radius", "found type integer, expected float"}};
+  for (const Case& c : cases) {
+    const Attempt a = with(inSphere(c.parameters));
+    EXPECT_TRUE(a.failsWith("parameter \"" + c.name + "\": ")) << c.parameters << a.messages();
+    EXPECT_TRUE(a.failsWith(c.found)) << c.parameters << a.messages();
+    EXPECT_EQ(a.diagnostics.errorCount(), 1u) << c.parameters << a.messages();
+  }
+  for (const std::string p : {"mediumlightsampling", "channelsampling"}) {
+    const Attempt a = attemptWorld(kBall, {}, "Integrator \"volpath\" \"bool " + p + "\" \"true\"");
+    EXPECT_TRUE(a.failsWith("parameter \"" + p + "\": found type bool, expected string")) << a.messages();
+  }
+}
+
+TEST(Tolerance, WrongTypesOfPbrtsParametersAreItsDefaults) {
+  const std::string grid = "\"string type\" \"heterogeneous\" \"float density\" 1 ";
+  for (const char* p :
+       {"\"float sigma_a\" 1", "\"integer scale\" 2", "\"float g\" [ .1 .2 ]", "\"float nx\" 1",
+        "\"vector p0\" [ 0 0 0 ]", "\"float preset\" 1", "\"string scale\" 2"}) {
+    const Attempt a = with(inSphere(grid + p));
+    EXPECT_TRUE(a.made && a.diagnostics.all().size() == 1) << p << a.messages();
+  }
+  for (const char* p :
+       {"\"float maxdepth\" 3", "\"integer rrthreshold\" 1", "\"bool pixelbounds\" \"true\""}) {
+    const Attempt a = attemptWorld(kBall, {}, std::string("Integrator \"volpath\" ") + p);
+    EXPECT_TRUE(a.warns("it is ignored, as in PBRT-v3")) << p << a.messages();
+  }
+}
+
 // ---- Media
 
 TEST(Tolerance, NegativeSamplesCountAsZeroAndAreCountedButNaNIsNot) {

@@ -139,16 +139,75 @@ TEST(ParamReader, ChoicesListWhatIsKnown) {
   EXPECT_EQ(good.reader.findChoice("other", kWrap, 0), 0u);
 }
 
-TEST(ParamReader, SeveralWordsForAParameterOfOurOwnAreAnError) {
-  for (const bool strict : {false, true}) {
-    Fixture f(R"("string two" [ "exact" "exact" ] "string one" "constant")", strict);
-    EXPECT_EQ(f.reader.optionalOwnString("two"), std::nullopt);
-    EXPECT_EQ(f.diagnostics.errorCount(), 1u);
-    EXPECT_EQ(f.diagnostics.all().at(0).message,
-              "Film \"image\": parameter \"two\": found 2 values, expected 1");
-    EXPECT_EQ(f.reader.optionalOwnString("one"), "constant");
-    EXPECT_EQ(f.reader.optionalOwnString("none"), std::nullopt);
-    EXPECT_EQ(f.diagnostics.errorCount(), 1u);
+TEST(ParamReader, NothingIsTakenInTheWayOfAParameterOfOurOwn) {
+  constexpr const char* kNothing = "; PBRT-v3 has no such parameter, and nothing is taken in its place";
+  struct Case {
+    const char* text;
+    const char* found;  ///< behind the name
+  };
+  const Case cases[] = {{R"("string ours" [ "a" "b" ])", "found 2 values, expected 1"},
+                        {R"("string ours" [])", "found no value"},
+                        {R"("float ours" 3)", "found type float, expected string"},
+                        {R"("texture ours" "t")", "found type texture, expected string"},
+                        {R"("string ours" 3)", "found 3, expected a quoted string"},
+                        {R"("str ours" "a")", "unknown type \"str\""},
+                        {R"("string ours thing" "a")", "found \"thing\" after the name"}};
+  for (const Case& c : cases) {
+    for (const bool strict : {false, true}) {
+      Parsed parsed = parse("Film \"image\"\n" + std::string(c.text) + "\nWorldBegin WorldEnd", strict);
+      const bool isToldInText = !parsed.diagnostics.all().empty();
+      EXPECT_EQ(parsed.diagnostics.hasErrors(), strict && isToldInText) << c.text;
+      Diagnostics diagnostics;
+      diagnostics.strict = strict;
+      ParamReader r(parsed.scene().film, diagnostics, "Film \"image\"");
+      r.setPbrtNames({"theirs"});
+      r.optionalString("ours");
+      r.reportUnused();
+      if (strict && isToldInText) {  // once is enough
+        EXPECT_EQ(diagnostics.format(), "") << c.text;
+        continue;
+      }
+      ASSERT_EQ(diagnostics.errorCount(), 1u) << c.text << diagnostics.format();
+      EXPECT_EQ(diagnostics.all().size(), 1u);
+      const std::string message = diagnostics.all()[0].message;
+      const std::string expected = "Film \"image\": parameter \"ours\": " + std::string(c.found);
+      EXPECT_TRUE(message == expected || message == expected + kNothing) << message;
+    }
+  }
+}
+
+TEST(ParamReader, WhatIsNotOurOwnOrNotAskedForStaysAWarning) {
+  Fixture f(R"("float theirs" 3 "string theirs2" [ "a" "b" ] "float elsewhere" 1 "string ours" "a")");
+  f.reader.setPbrtNames({"theirs", "theirs2"});
+  f.reader.findInt("theirs", 1);
+  f.reader.findString("theirs2", "");
+  EXPECT_EQ(f.reader.optionalString("ours"), "a");
+  EXPECT_EQ(f.reader.optionalString("none"), std::nullopt);
+  f.reader.reportUnused();
+  EXPECT_FALSE(f.diagnostics.hasErrors()) << f.diagnostics.format();
+  EXPECT_EQ(f.diagnostics.all().size(), 3u);
+}
+
+TEST(ParamReader, NumbersOfOurOwnAreTakenAsTheyAreWritten) {
+  for (const char* text :
+       {R"("integer n" 2.5)", R"("float x" inf)", R"("point P" [1 2 3 4])", R"("bool b" "yes")",
+        R"("blackbody c" [0 1])", R"("spectrum c" "none.spd")", R"("texture t" ["a" "b"])"}) {
+    Parsed parsed = parse("Film \"image\"\n" + std::string(text) + "\nWorldBegin WorldEnd");
+    EXPECT_FALSE(parsed.diagnostics.hasErrors()) << parsed.messages();
+    EXPECT_EQ(parsed.diagnostics.all().size(), 1u) << parsed.messages();
+    for (const bool isOurs : {false, true}) {
+      Diagnostics diagnostics;
+      ParamReader r(parsed.scene().film, diagnostics, "Film \"image\"");
+      if (isOurs) r.setPbrtNames({});
+      r.findInt("n", 1);
+      r.findFloat("x", 1);
+      r.findPoint3("P", {});
+      r.findBool("b", true);
+      r.findSpectrum("c", Rgb(1));
+      r.findTextureName("t");
+      r.reportUnused();
+      EXPECT_EQ(diagnostics.errorCount(), isOurs ? 1u : 0u) << text << diagnostics.format();
+    }
   }
 }
 
