@@ -85,6 +85,10 @@ BoundsParams readBounds(ParamReader& in, BoundsParams::Source fallback) {
     p.slack = in.findFloat("boundslack", p.slack, Range::nonNegative());
   if (belongsTo(BoundsParams::Source::Progressive, "warmup", ParamKind::Integer))
     p.warmUpPasses = in.findInt("warmup", p.warmUpPasses, Range::closed(0, kMostWarmUpPasses));
+  if (belongsTo(BoundsParams::Source::Progressive, "warmuplookups", ParamKind::Integer)) {
+    if (const std::optional<int> most = in.optionalInt("warmuplookups", Range::nonNegative()))
+      p.warmUpLookups = static_cast<std::uint64_t>(*most);
+  }
   return p;
 }
 

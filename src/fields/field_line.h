@@ -64,6 +64,8 @@ class FieldLine {
   static constexpr bool hasProvenBounds() { return Field::kProvenBounds; }
   double tEntry() const { return tEntry_; }
   double length() const { return length_; }
+  /// Where `s` is, in local units.
+  Vec3d localPoint(double s) const { return line_.o + s * line_.d; }
   /// Every loop over a line looks up or draws in vain: here it is left when the run is to stop.
   float density(double s) const {
     leaveIfAbandoned();

@@ -37,7 +37,7 @@ LearnedBounds::LearnedBounds(const SuperVoxelLattice& cells, const Params& param
       most_(std::make_unique<std::atomic<float>[]>(inForce_.storedCells())),
       least_(std::make_unique<std::atomic<float>[]>(inForce_.storedCells())),
       cut_(std::make_unique<std::atomic<std::uint32_t>[]>(inForce_.storedCells())),
-      shortfall_(std::make_unique<std::atomic<std::uint64_t>[]>(inForce_.storedCells())) {
+      probes_(std::make_unique<ProbeSum[]>(kProbeSlots)) {
   for (std::size_t i = 0; i < inForce_.storedCells(); ++i) {
     most_[i].store(params.initial, std::memory_order_relaxed);
     least_[i].store(kUnseen, std::memory_order_relaxed);
@@ -46,21 +46,36 @@ LearnedBounds::LearnedBounds(const SuperVoxelLattice& cells, const Params& param
   progress_.maximum = params.initial;
 }
 
+void LearnedBounds::probe(Vec3d local, float density, double depthPerDensity) const {
+  const double depth = std::min(static_cast<double>(density) * depthPerDensity, kMostDepth);
+  const double share = static_cast<double>(bounded(local, density)) / static_cast<double>(density);
+  if (!(depth > 0)) return;
+  ProbeSum& sum = probes_[inForce_.cellAt(local) % kProbeSlots];
+  sum.found.fetch_add(static_cast<std::uint64_t>(depth / kDepthUnit), std::memory_order_relaxed);
+  if (share < 1) {
+    sum.cut.fetch_add(static_cast<std::uint64_t>((1 - share) * depth / kDepthUnit),
+                      std::memory_order_relaxed);
+  }
+}
+
 void LearnedBounds::publish() {
   progress_.raised = progress_.visited = 0;
   progress_.cut = 0;
-  std::uint64_t shortfall = 0;
   inForce_.update([&](std::size_t cell, const SuperVoxel& old) {
     const float upper = most_[cell].load(std::memory_order_relaxed);
     const float least = least_[cell].load(std::memory_order_relaxed);
     progress_.raised += upper > old.upper;
     progress_.visited += least < kUnseen;
     progress_.cut += cut_[cell].exchange(0, std::memory_order_relaxed);
-    shortfall += shortfall_[cell].exchange(0, std::memory_order_relaxed);
     const float lower = least < kUnseen ? std::max(0.0f, least - params_.epsilon) : 0.0f;
     return SuperVoxel{std::max(upper, old.upper), lower, SuperVoxel::kUnknownMean};
   });
-  progress_.shortfall = static_cast<double>(shortfall) / static_cast<double>(kShortfallUnit);
+  double found = 0, cut = 0;
+  for (std::size_t i = 0; i < kProbeSlots; ++i) {
+    found += static_cast<double>(probes_[i].found.exchange(0, std::memory_order_relaxed));
+    cut += static_cast<double>(probes_[i].cut.exchange(0, std::memory_order_relaxed));
+  }
+  progress_.shortfall = found > 0 ? cut / found : 0;
   progress_.maximum = inForce_.maximum();
   ++progress_.passes;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fields/lattice_walk.h"
@@ -19,8 +20,9 @@ struct LearningProgress {
   std::size_t raised = 0;   ///< by the last publication
   std::size_t visited = 0;  ///< ever looked up in
   std::uint64_t cut = 0;    ///< look-ups of the last pass that found more than their bound and its slack
-  double shortfall = 0;     ///< the shares of their densities that they lost by it, added up
-  float maximum = 0;        ///< largest bound
+  double shortfall =
+      0;              ///< of the extinction that the last pass probed (LearnedBounds::probe): the share cut
+  float maximum = 0;  ///< largest bound
 };
 
 /// Super-voxel bounds that are learned while rendering: progressive null-tracking, Misso et al. 2023, section
@@ -33,7 +35,8 @@ struct LearningProgress {
 /// they are controls only and cut nothing.
 ///
 /// The paper starts rendering at once, so its first passes see little of the medium. Whoever renders may
-/// explore before: bounds are then proposed from look-ups in every cell (exploreBounds), and put into force.
+/// explore before: bounds are then proposed from look-ups in every cell or in blocks of them (Exploration),
+/// and put into force.
 ///
 /// With a slack s > 0 densities up to (1 + s) times the bound pass uncut: trackers whose weights allow a
 /// bound slightly too low stay unbiased there, and the bounds themselves stay lower by the same factor.
@@ -43,7 +46,9 @@ class LearnedBounds {
     float initial = 0.01f;  ///< bound of every cell before the first pass, > 0
     float epsilon = 0.01f;  ///< added to a density that is proposed as a bound, > 0
     float slack = 0;        ///< >= 0
-    int warmUpPasses = 0;   ///< of exploration before the first pass, >= 0; the paper: none
+    int warmUpPasses = 0;   ///< of exploration before the first pass, at most; >= 0; the paper: none
+    /// Look-ups for them, at most. Nothing: whoever renders chooses.
+    std::optional<std::uint64_t> warmUpLookups{};
   };
 
   /// Throws SceneError (location unknown) when a parameter is out of range.
@@ -60,11 +65,12 @@ class LearnedBounds {
     const float limit = bound * (1 + params_.slack);
     if (!(density > limit)) return density;
     cut_[cell].fetch_add(1, std::memory_order_relaxed);
-    // Whole numbers, so that their sum does not depend on the order.
-    shortfall_[cell].fetch_add(static_cast<std::uint32_t>((1 - limit / density) * kShortfallUnit),
-                               std::memory_order_relaxed);
     return limit;
   }
+  /// Notes the density at a random point of a segment, uniform on it: it proposes a bound as any other, and
+  /// tells how much of the extinction the bounds in force cut away. `depthPerDensity` > 0: optical depth of
+  /// the segment, if this were its density, per density. Thread-safe.
+  void probe(Vec3d local, float density, double depthPerDensity) const;
   /// Notes a density found in a stored cell, whatever its bound. Thread-safe.
   void propose(std::size_t cell, float density) const;
   /// How often to explore before the first pass: not at all for what has learned already.
@@ -79,7 +85,8 @@ class LearnedBounds {
   void publish();
   LearningProgress progress() const { return progress_; }
   std::size_t bytesOfProposals() const {
-    return inForce_.storedCells() * (2 * sizeof(float) + sizeof(std::uint32_t) + sizeof(std::uint64_t));
+    return inForce_.storedCells() * (2 * sizeof(float) + sizeof(std::uint32_t)) +
+           kProbeSlots * sizeof(ProbeSum);
   }
 
   /// The bounds in force as numbers, cell by cell, x fastest: upper then lower; for a cache.
@@ -88,14 +95,19 @@ class LearnedBounds {
   bool restore(const std::vector<float>& saved);
 
  private:
-  static constexpr float kShortfallUnit = 0x1p16f;
+  /// Optical depths of probes, in whole units, so that their sums do not depend on the order.
+  struct ProbeSum {
+    std::atomic<std::uint64_t> found{0}, cut{0};
+  };
+  static constexpr double kDepthUnit = 0x1p-24, kMostDepth = 64;  ///< a probe of more counts as that much
+  static constexpr std::size_t kProbeSlots = 1024;                ///< threads would queue for a common sum
 
   Params params_;
   SuperVoxels inForce_;
   std::unique_ptr<std::atomic<float>[]> most_, least_;  ///< proposals, one per stored cell
   /// Look-ups cut in this pass. One counter a cell, as threads would queue for a common one.
   std::unique_ptr<std::atomic<std::uint32_t>[]> cut_;
-  std::unique_ptr<std::atomic<std::uint64_t>[]> shortfall_;  ///< in shares of 1 / kShortfallUnit
+  std::unique_ptr<ProbeSum[]> probes_;  ///< by stored cell modulo kProbeSlots
   LearningProgress progress_;
   bool isRestored_ = false;
 };

@@ -47,10 +47,11 @@ class UnprovenField {
   /// The field's own density, not cut; nothing is learned of it.
   float uncutDensity(Vec3d p) const { return field_.density(p); }
 
-  /// Before rendering: explores cells of learned bounds (exploreBounds). Answers the look-ups made.
-  std::uint64_t explore(std::size_t firstCell, std::size_t lastCell, std::uint64_t seed) const {
+  /// Before rendering: explores blocks of learned bounds (exploreBounds). Answers the look-ups made.
+  std::uint64_t explore(const Exploration& plan, std::size_t first, std::size_t last,
+                        std::uint64_t seed) const {
     if (!learned_) return 0;
-    return exploreBounds(*learned_, firstCell, lastCell, seed, [&](Vec3d p) { return field_.density(p); });
+    return exploreBounds(*learned_, plan, first, last, seed, [&](Vec3d p) { return field_.density(p); });
   }
 
   decltype(auto) localFromWorld() const { return field_.localFromWorld(); }

@@ -10,6 +10,7 @@
 #include "base/interruption.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "fields/exploration.h"
 
 namespace pbrtmedia {
 namespace {
@@ -22,8 +23,14 @@ constexpr std::uint64_t kPatternTag = 0x7074726e;
 constexpr std::uint64_t kRngTag = 0x70617468;
 /// "warm" in ASCII: the same for the exploration of bounds.
 constexpr std::uint64_t kWarmUpTag = 0x7761726d;
-/// One thread explores this many super-voxels at a time, or a share of all.
-constexpr std::size_t kLeastCells = 64, kMostChunks = 4096;
+/// One thread explores this many blocks of super-voxels at a time, or a share of all.
+constexpr std::size_t kLeastBlocks = 64, kMostChunks = 4096;
+/// Look-ups to explore the bounds of all media, for each camera sample of the render: a small part of what a
+/// sample in a medium makes itself (10 to 100).
+constexpr std::uint64_t kWarmUpPerSample = 4;
+/// But as many for one medium may be made in any case: four passes over 32 x 32 x 32 super-voxels, a
+/// fraction of a second.
+constexpr std::uint64_t kLeastWarmUp = std::uint64_t{1} << 21;
 constexpr double kProgressInterval = 0.1;  // seconds
 
 /// A rectangle of the film that one thread renders, and what came out besides radiance.
@@ -136,7 +143,7 @@ class RenderLoop {
     parallelFor(tiles.size(), [&](std::size_t i) { renderTile(tiles[i], pass, first, count); });
     film_.accumulate(pass);
     bool complete = true;
-    const std::uint64_t lookupsBefore = result_.counters.densityLookups;
+    const std::uint64_t samplesBefore = result_.samplesTaken;
     for (const Tile& tile : tiles) {
       complete &= tile.complete;
       result_.samplesTaken += tile.samples;
@@ -147,8 +154,13 @@ class RenderLoop {
       mergeRecords(result_.mismatches, tile.mismatches, options_.maxRecords);
       mergeRecords(result_.violations, tile.violations, options_.maxRecords);
     }
-    publishLearned(result_.counters.densityLookups - lookupsBefore);
+    publishLearned(result_.samplesTaken - samplesBefore);
     return complete;
+  }
+
+  /// Look-ups that the exploration of one medium may take.
+  std::uint64_t warmUpBudget() const {
+    return std::max(kLeastWarmUp, kWarmUpPerSample * result_.samplesTotal / options_.learners.size());
   }
 
   /// Explores the bounds that nobody knows anything of, and puts what was found into force.
@@ -159,14 +171,23 @@ class RenderLoop {
       LearningRecord& record = result_.learning[i];
       record.warmUpPasses = bounds.warmUpPasses();
       if (record.warmUpPasses == 0) continue;
-      const std::size_t cells = bounds.inForce().cellCount();
-      const std::size_t chunk = std::max(kLeastCells, cells / kMostChunks),
-                        chunks = (cells + chunk - 1) / chunk;
+      const auto planned = [&](int passes) {
+        return planExploration(bounds.inForce().shape(), passes,
+                               bounds.params().warmUpLookups.value_or(warmUpBudget()));
+      };
+      const Exploration plan = planned(record.warmUpPasses);
+      record.warmUpIsLimited = planned(plan.passes + 1).passes == plan.passes;
+      record.warmUpPasses = plan.passes;
+      record.warmUpBlockEdge = plan.blockEdge;
+      if (plan.passes == 0) continue;
+      const std::size_t blocks = plan.blockCount();
+      const std::size_t chunk = std::max(kLeastBlocks, blocks / kMostChunks),
+                        chunks = (blocks + chunk - 1) / chunk;
       const std::uint64_t seed = hashCombine(options_.seed, kWarmUpTag, static_cast<std::uint64_t>(i));
       std::vector<RenderCounters> counters(chunks);
       parallelFor(chunks, [&](std::size_t c) {
         if (shouldStop()) return;
-        medium.exploreBounds(c * chunk, std::min(cells, (c + 1) * chunk), seed, counters[c]);
+        medium.exploreBounds(plan, c * chunk, std::min(blocks, (c + 1) * chunk), seed, counters[c]);
       });
       for (const RenderCounters& c : counters) {
         record.warmUpLookups += c.densityLookups;
@@ -177,16 +198,16 @@ class RenderLoop {
     }
   }
 
-  /// `lookups`: of all media in the pass.
-  void publishLearned(std::uint64_t lookups) {
-    passLookups_ += lookups;
+  /// `samples`: of the pass.
+  void publishLearned(std::uint64_t samples) {
     for (std::size_t i = 0; i < options_.learners.size(); ++i) {
       LearnedBounds& bounds = *options_.learners[i]->learnedBounds();
       LearningRecord& record = result_.learning[i];
       bounds.publish();
       record.passes.push_back(bounds.progress());
-      shortfalls_[i] += bounds.progress().shortfall;
-      record.shortfall = passLookups_ > 0 ? shortfalls_[i] / static_cast<double>(passLookups_) : 0;
+      shortfalls_[i] += bounds.progress().shortfall * static_cast<double>(samples);
+      if (result_.samplesTaken > 0)
+        record.shortfall = shortfalls_[i] / static_cast<double>(result_.samplesTaken);
     }
   }
 
@@ -256,8 +277,7 @@ class RenderLoop {
   std::int64_t samplesPerPixel_;
   Stopwatch watch_;
   RenderResult result_;
-  std::vector<double> shortfalls_ = std::vector<double>(options_.learners.size());
-  std::uint64_t passLookups_ = 0;  ///< of all passes of samples
+  std::vector<double> shortfalls_ = std::vector<double>(options_.learners.size());  ///< of samples, added up
   std::atomic<std::uint64_t> samplesDone_{0};
   std::mutex progressMutex_;
   double lastReport_ = 0;

@@ -41,7 +41,8 @@ struct RenderOptions {
   /// Media whose bounds are learned (Medium::learnedBounds). If there are any, every pass takes one sample of
   /// each pixel, whatever samplesPerPass says, and publishes what it learned: so pass k sees the same bounds
   /// for any threads and tiles. Those that have learned nothing yet are explored before the first pass
-  /// (Medium::exploreBounds); that takes part of the time limit.
+  /// (Medium::exploreBounds), within a number of look-ups that follows the samples to take; that takes part
+  /// of the time limit.
   std::vector<Medium*> learners{};
 };
 
@@ -66,11 +67,14 @@ struct LearningRecord {
   std::string medium;
   bool restored = false;                 ///< from the bounds of another render
   int warmUpPasses = 0;                  ///< before the first sample
+  std::int64_t warmUpBlockEdge = 1;      ///< Exploration::blockEdge
+  bool warmUpIsLimited = false;          ///< look-ups did not suffice for one pass more
   std::uint64_t warmUpLookups = 0;       ///< part of RenderCounters::densityLookups
   LearningProgress warmUp{};             ///< after them
   std::vector<LearningProgress> passes;  ///< of samples, after each publication
-  /// By how much densities that samples looked up were cut, as a share of them, on average: about the share
-  /// of the medium's extinction that the image lacks.
+  /// The share of the medium's extinction that its bounds cut away, by a random point of each segment that
+  /// samples asked it about: about what the image lacks of it. A mean over samples; passes after one that
+  /// raised no bound count as 0.
   double shortfall = 0;
 
   /// Whether that is more than anybody should call the medium.

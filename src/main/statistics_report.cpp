@@ -57,6 +57,7 @@ nlohmann::ordered_json toJson(const LearningRecord& record) {
           {"restored", record.restored},
           {"warmUp",
            {{"passes", record.warmUpPasses},
+            {"blockEdge", record.warmUpBlockEdge},
             {"densityLookups", record.warmUpLookups},
             {"largestBound", record.warmUp.maximum}}},
           {"shortfall", record.shortfall},
@@ -119,7 +120,10 @@ std::string formatStatistics(const RenderStatistics& s) {
     if (record.passes.empty()) continue;
     if (record.warmUpPasses > 0) {
       os << "  bounds    \"" << record.medium << "\": " << record.warmUpPasses << " passes of warm-up took "
-         << formatCount(static_cast<double>(record.warmUpLookups)) << " lookups\n";
+         << formatCount(static_cast<double>(record.warmUpLookups)) << " lookups";
+      if (const std::int64_t edge = record.warmUpBlockEdge; edge > 1)
+        os << ", in blocks of " << edge << " x " << edge << " x " << edge << " super-voxels";
+      os << '\n';
     }
     const LearningProgress& last = record.passes.back();
     os << "  bounds    \"" << record.medium << "\": " << last.visited << " of " << last.cells

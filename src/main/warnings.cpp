@@ -106,8 +106,10 @@ std::string describeRisingBounds(const std::vector<LearningRecord>& learning) {
       os << "are not known yet: the image has no samples";
     } else {
       os << "were still rising: about " << 100 * record.shortfall
-         << " % of its extinction are missing in the image. More samples, more passes of \"integer warmup\" "
-            "or a second run with --bounds-cache come closer";
+         << " % of its extinction is missing in the image. More samples, "
+         << "more passes of \"integer warmup\""
+         << (record.warmUpIsLimited ? " within more \"integer warmuplookups\"" : "")
+         << " or a second run with --bounds-cache come closer";
     }
     os << ".\n";
   }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "fields/super_voxels.h"
 
 namespace pbrtmedia {
@@ -15,12 +18,13 @@ struct BoundsParams {
     Progressive  ///< learned while rendering (LearnedBounds)
   };
   Source source = Source::Exact;
-  WantedCells cells;                ///< super-voxels per axis
-  float majorant = 0;               ///< Constant only: >= 0
-  float initialExtinction = 0.01f;  ///< Progressive only, as below: before the first pass, > 0
-  float epsilon = 0.01f;            ///< added to an extinction that is proposed as a bound, > 0
-  float slack = 0;                  ///< LearnedBounds::Params::slack, >= 0
-  int warmUpPasses = 4;             ///< LearnedBounds::Params::warmUpPasses, >= 0
+  WantedCells cells;                             ///< super-voxels per axis
+  float majorant = 0;                            ///< Constant only: >= 0
+  float initialExtinction = 0.01f;               ///< Progressive only, as below: before the first pass, > 0
+  float epsilon = 0.01f;                         ///< added to an extinction that is proposed as a bound, > 0
+  float slack = 0;                               ///< LearnedBounds::Params::slack, >= 0
+  int warmUpPasses = 4;                          ///< LearnedBounds::Params::warmUpPasses, >= 0
+  std::optional<std::uint64_t> warmUpLookups{};  ///< LearnedBounds::Params::warmUpLookups
 };
 
 }  // namespace pbrtmedia

@@ -168,10 +168,10 @@ class FieldMedium final : public Medium {
     return samples;
   }
 
-  void exploreBounds(std::size_t firstCell, std::size_t lastCell, std::uint64_t seed,
+  void exploreBounds(const Exploration& plan, std::size_t first, std::size_t last, std::uint64_t seed,
                      RenderCounters& counters) const override {
-    if constexpr (requires { field_.explore(firstCell, lastCell, seed); }) {
-      counters.densityLookups += field_.explore(firstCell, lastCell, seed);
+    if constexpr (requires { field_.explore(plan, first, last, seed); }) {
+      counters.densityLookups += field_.explore(plan, first, last, seed);
     }
   }
 
@@ -332,11 +332,13 @@ class FieldMedium final : public Medium {
   }
 
   /// Learned bounds grow where somebody looks. While they still do, every segment looks once more, at a
-  /// random point: thin first bounds alone would hardly ever look. It changes no estimate of the pass.
+  /// random point: thin first bounds alone would hardly ever look, nor tell how much they cut away. It
+  /// changes no estimate of the pass.
   void explore(const FieldLine<Field>& line, Rng& rng, RenderCounters& counters) const {
     if constexpr (requires { field_.learned(); }) {
       if (field_.learned() == nullptr || !field_.learned()->isExploring()) return;
-      static_cast<void>(line.density(line.length() * rng.uniformDouble()));
+      const Vec3d p = line.localPoint(line.length() * rng.uniformDouble());
+      field_.learned()->probe(p, field_.uncutDensity(p), static_cast<double>(sigmaT_.max()) * line.length());
       ++counters.densityLookups;
     }
   }

@@ -12,6 +12,7 @@
 #include "base/rng.h"
 #include "base/segment.h"
 #include "base/statistics.h"
+#include "fields/exploration.h"
 #include "fields/learned_bounds.h"
 #include "media/emission_volume.h"
 #include "media/phase_function.h"
@@ -118,11 +119,11 @@ class Medium {
   /// Bounds that are learned while rendering: whoever renders publishes them between passes. Null for media
   /// whose bounds stay as they are.
   virtual LearnedBounds* learnedBounds() { return nullptr; }
-  /// Learned bounds only: proposes bounds for the super-voxels [firstCell, lastCell), x fastest, from
-  /// look-ups in each (fields/explore_bounds.h). They depend on cell and seed alone. Thread-safe.
-  virtual void exploreBounds(std::size_t firstCell, std::size_t lastCell, std::uint64_t seed,
+  /// Learned bounds only: proposes bounds for the blocks [first, last) of `plan`, x fastest, from look-ups in
+  /// each (fields/explore_bounds.h). They depend on block and seed alone. Thread-safe.
+  virtual void exploreBounds(const Exploration& plan, std::size_t first, std::size_t last, std::uint64_t seed,
                              RenderCounters& counters) const {
-    (void)firstCell, (void)lastCell, (void)seed, (void)counters;
+    (void)plan, (void)first, (void)last, (void)seed, (void)counters;
   }
   /// What was wrong with densities so far, for a warning after rendering; empty: nothing.
   virtual std::string complaint() const { return {}; }

@@ -28,7 +28,7 @@ std::unique_ptr<Medium> unprovenMedium(const FieldMediumParams& params, std::str
     return made(UnprovenField<Field>(std::move(field), SuperVoxels(cells, bound)));
   }
   const LearnedBounds::Params learn{densityOf(b.initialExtinction), densityOf(b.epsilon), b.slack,
-                                    b.warmUpPasses};
+                                    b.warmUpPasses, b.warmUpLookups};
   return made(UnprovenField<Field>(std::move(field), cells, learn));
 }
 

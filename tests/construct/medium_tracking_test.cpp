@@ -195,6 +195,8 @@ TEST(ConstructBounds, SaysWhatIsWrong) {
                   {kGrid + progressive + "\"float boundslack\" -1", "found -1, expected >= 0", ""},
                   {kGrid + "\"integer warmup\" 2", "\"warmup\": needs \"string bounds\" \"progressive\"", ""},
                   {kGrid + progressive + "\"integer warmup\" -1", "found -1, expected", ""},
+                  {kGrid + "\"integer warmuplookups\" 2", "\"warmuplookups\": needs \"string bounds\"", ""},
+                  {kGrid + progressive + "\"integer warmuplookups\" -1", "found -1, expected", ""},
                   {kGrid + "\"float densityslack\" 1", "unknown parameter \"densityslack\"", "", kTolerated}},
                  with);
 }

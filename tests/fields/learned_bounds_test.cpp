@@ -103,16 +103,30 @@ TEST(LearnedBounds, DependOnNeitherThreadsNorOrder) {
   EXPECT_EQ(results[0], results[1]);
 }
 
-TEST(LearnedBounds, TellHowMuchTheyCutAway) {
+TEST(LearnedBounds, TellTheShareOfProbedExtinctionThatTheyCutAway) {
   LearnedBounds bounds(lattice(1), {.initial = 1, .epsilon = .5f});
-  bounds.bounded({.5, .5, .5}, .5f);
-  bounds.bounded({.5, .5, .5}, 4);
-  bounds.bounded({.5, .5, .5}, 2);
+  const Vec3d p{.5, .5, .5};
+  for (const float d : {.5f, 4.0f, 2.0f}) bounds.bounded(p, d);
   bounds.publish();
-  EXPECT_EQ(bounds.progress().shortfall, .75 + .5);
-  bounds.bounded({.5, .5, .5}, 4);
-  bounds.publish();
-  EXPECT_EQ(bounds.progress().shortfall, 0);
+  EXPECT_EQ(bounds.progress().shortfall, 0) << "nothing was probed";
+
+  LearnedBounds probed(lattice(1), {.initial = 1, .epsilon = .5f});
+  probed.probe(p, .5f, 1);
+  probed.probe(p, 0, 1);
+  probed.probe(p, 4, 1);
+  probed.probe(p, 2, .25);  // a shorter segment
+  probed.publish();
+  EXPECT_EQ(probed.progress().shortfall, (3 + .25 * 1) / (.5 + 4 + .25 * 2));
+  EXPECT_EQ(probed.progress().cut, 2u);
+  EXPECT_EQ(probed.inForce().maximum(), 4.5f) << "probes propose bounds";
+  probed.probe(p, 4, 1);
+  probed.publish();
+  EXPECT_EQ(probed.progress().shortfall, 0);
+  // Neither the densest probe nor the thinnest is all that counts.
+  probed.probe(p, 1e30f, 1);
+  for (int i = 0; i < 64; ++i) probed.probe(p, 1, 1);
+  probed.publish();
+  EXPECT_NEAR(probed.progress().shortfall, .5, 1e-6);
 }
 
 TEST(LearnedBounds, AreExploredToTheTopOfEveryCell) {
@@ -124,7 +138,8 @@ TEST(LearnedBounds, AreExploredToTheTopOfEveryCell) {
   };
   LearnedBounds bounds(lattice(3), {.initial = .01f, .epsilon = .001f, .warmUpPasses = 4});
   ASSERT_EQ(bounds.warmUpPasses(), 4);
-  EXPECT_EQ(exploreBounds(bounds, 0, 27, kSeed, hills), 27u * 4 * 16);
+  const Exploration plan = planExploration(bounds.inForce().shape(), 4, 27 * 4 * 16);
+  EXPECT_EQ(exploreBounds(bounds, plan, 0, 27, kSeed, hills), 27u * 4 * 16);
   EXPECT_EQ(bounds.inForce().maximum(), .01f) << "not before they are published";
   bounds.publish();
   EXPECT_EQ(bounds.warmUpPasses(), 0) << "once is enough";
@@ -139,15 +154,45 @@ TEST(LearnedBounds, AreExploredToTheTopOfEveryCell) {
   }
   // In parts, and in any order, it is the same; from another seed it is not.
   LearnedBounds parts(lattice(3), bounds.params()), other(lattice(3), bounds.params());
-  exploreBounds(parts, 20, 27, kSeed, hills);
-  exploreBounds(parts, 0, 11, kSeed, hills);
-  exploreBounds(parts, 11, 20, kSeed, hills);
+  exploreBounds(parts, plan, 20, 27, kSeed, hills);
+  exploreBounds(parts, plan, 0, 11, kSeed, hills);
+  exploreBounds(parts, plan, 11, 20, kSeed, hills);
   parts.publish();
   EXPECT_EQ(parts.save(), bounds.save());
-  exploreBounds(other, 0, 27, kSeed + 1, hills);
+  exploreBounds(other, plan, 0, 27, kSeed + 1, hills);
   other.publish();
   EXPECT_NE(other.save(), bounds.save());
   EXPECT_THROW(LearnedBounds(lattice(1), {.warmUpPasses = -1}), SceneError);
+}
+
+TEST(LearnedBounds, AreExploredInBlocksWhereEverySuperVoxelGetsTheExtremesOfItsBlock) {
+  // The x of a look-up: blocks of 4 of the 6 x 6 x 6 super-voxels, the last ones of 2.
+  LearnedBounds bounds(lattice(6), {.initial = .01f, .epsilon = .001f, .warmUpPasses = 4});
+  const Exploration plan = planExploration(bounds.inForce().shape(), 4, 8 * 3 * 16);
+  ASSERT_EQ(plan.blockEdge, 4);
+  ASSERT_EQ(plan.passes, 3);
+  const std::uint64_t lookups = exploreBounds(bounds, plan, 0, plan.blockCount(), kSeed,
+                                              [](Vec3d p) { return static_cast<float>(p.x); });
+  EXPECT_EQ(lookups, plan.lookups());
+  bounds.publish();
+  EXPECT_EQ(bounds.progress().visited, 216u);
+  for (std::int64_t k = 0; k < 6; ++k) {
+    for (std::int64_t i = 0; i < 6; ++i) {
+      const SuperVoxel cell = bounds.inForce().at(i, 5 - k, k);
+      const float from = i < 4 ? 0 : 4, to = i < 4 ? 4 : 6;
+      EXPECT_GT(cell.upper, to - .1f * (to - from));
+      EXPECT_LE(cell.upper, to + .002f);
+      EXPECT_LT(cell.lower, from + .2f * (to - from));
+      EXPECT_GE(cell.lower, std::max(0.0f, from - .002f));
+    }
+  }
+  // Without look-ups nothing is explored.
+  LearnedBounds none(lattice(6), bounds.params());
+  const Exploration nothing = planExploration(none.inForce().shape(), 4, 15);
+  EXPECT_EQ(exploreBounds(none, nothing, 0, nothing.blockCount(), kSeed, [](Vec3d) { return 1.0f; }), 0u);
+  none.publish();
+  EXPECT_EQ(none.inForce().maximum(), .01f);
+  EXPECT_EQ(none.progress().visited, 0u);
 }
 
 TEST(LearnedBounds, LetDensitiesPassWithinTheSlack) {

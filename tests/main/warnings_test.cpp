@@ -56,7 +56,12 @@ TEST(DescribeRisingBounds, TellsWhatIsMissing) {
   EXPECT_EQ(describeRisingBounds({learned(0), learned(1e-4)}), "");
   const std::string text = describeRisingBounds({learned(0), learned(.25)});
   EXPECT_TRUE(has(text, "warning: the progressive bounds of medium \"smoke\" were still rising")) << text;
-  EXPECT_TRUE(has(text, "about 25 % of its extinction are missing")) << text;
+  EXPECT_TRUE(has(text, "about 25 % of its extinction is missing")) << text;
+  EXPECT_TRUE(has(text, "more passes of \"integer warmup\" or a second run")) << text;
+  LearningRecord limited = learned(.25);
+  limited.warmUpIsLimited = true;
+  EXPECT_TRUE(
+      has(describeRisingBounds({limited}), "\"integer warmup\" within more \"integer warmuplookups\" or"));
   LearningRecord empty;
   empty.medium = "smoke";
   EXPECT_TRUE(has(describeRisingBounds({empty}), "not known yet"));
