@@ -38,18 +38,18 @@ void addVolumeOptions(CLI::App& app, ConversionOptions& c) {
       {"clamp", NegativeRule::Clamp}, {"error", NegativeRule::Error}, {"keep", NegativeRule::Keep}};
   app.add_option("--negative", c.negative,
                  "voxels below 0: clamp to 0 and count them, error, or keep (clamp)")
-      ->transform(CLI::CheckedTransformer(rules, CLI::ignore_case))
+      ->transform(oneOf(rules))
       ->type_name("RULE");
   const std::map<std::string, NanRule> nans{{"error", NanRule::Error}, {"zero", NanRule::Zero}};
   app.add_option("--nan", c.nan, "voxels that are NaN or infinite: error, or zero, which counts them (error)")
-      ->transform(CLI::CheckedTransformer(nans, CLI::ignore_case))
+      ->transform(oneOf(nans))
       ->type_name("RULE");
   const std::map<std::string, LevelSetRule> levelSets{{"error", LevelSetRule::Error},
                                                       {"fog", LevelSetRule::Fog}};
   app.add_option(
          "--level-set", c.levelSet,
          "grids that tell distances: error, or fog, which makes fog volumes of them, 1 inside (error)")
-      ->transform(CLI::CheckedTransformer(levelSets, CLI::ignore_case))
+      ->transform(oneOf(levelSets))
       ->type_name("RULE");
 }
 
@@ -84,7 +84,7 @@ void addLookOptions(CLI::App& app, Arguments& a) {
       ->type_name("FILE.pbrt");
   const std::map<std::string, UpAxis> axes{{"y", UpAxis::Y}, {"z", UpAxis::Z}};
   app.add_option("--up", c.up, "which way is up in the scene: y, or z (y; z for files of Blender)")
-      ->transform(CLI::CheckedTransformer(axes, CLI::ignore_case))
+      ->transform(oneOf(axes))
       ->type_name("AXIS");
 }
 
@@ -110,7 +110,7 @@ void addOptions(CLI::App& app, Arguments& a) {
              "--precision", a.conversion.nvdb.precision,
              "float (exact), or 16, 8, 4 or as few bits as --tolerance allows between the extremes of "
              "each 8^3 voxels: fp16, fp8, fp4, fpn")
-          ->transform(CLI::CheckedTransformer(precisions, CLI::ignore_case))
+          ->transform(oneOf(precisions))
           ->type_name("NAME");
   app.add_flag("--half", a.half, "the same as --precision fp16")->excludes(precision);
   app.add_option("--tolerance", a.conversion.nvdb.tolerance, "fpn: largest error of a value (0.01)")
@@ -120,7 +120,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_option("--dense", a.conversion.dense,
                  "no .nvdb: all samples as PBRT-v3's heterogeneous medium in the include, plain (inline) or "
                  "gzip-compressed (gz)")
-      ->transform(CLI::CheckedTransformer(forms, CLI::ignore_case))
+      ->transform(oneOf(forms))
       ->type_name("FORM");
   app.add_option("--frames", a.files.frames,
                  "FIRST-LAST or FIRST-LAST:STEP, for names with a place for the frame (all that are there)");

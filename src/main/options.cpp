@@ -105,13 +105,13 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
   const std::map<std::string, PixelType> pixelTypes = {{"half", PixelType::Half},
                                                        {"float", PixelType::Float}};
   app.add_option("--pixeltype", options.write.pixelType, "half (default) or float numbers in EXR files")
-      ->transform(CLI::CheckedTransformer(pixelTypes))
+      ->transform(oneOf(pixelTypes))
       ->type_name("TYPE")
       ->group(render);
   const std::map<std::string, ExrCompression> compressions = {
       {"none", ExrCompression::None}, {"zip", ExrCompression::Zip}, {"piz", ExrCompression::Piz}};
   app.add_option("--compression", options.write.compression, "of EXR files: zip (default), piz or none")
-      ->transform(CLI::CheckedTransformer(compressions))
+      ->transform(oneOf(compressions))
       ->type_name("NAME")
       ->group(render);
 
@@ -130,7 +130,7 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
       ->group(reports);
   app.add_option("--progress", progress,
                  "auto (default): a live line on a terminal; plain: a line now and then; none")
-      ->check(CLI::IsMember({"auto", "plain", "none"}))
+      ->transform(oneOf({"auto", "plain", "none"}))
       ->type_name("MODE")
       ->group(reports);
   app.add_option("--stats", stats, "write times, counters and memory as JSON")

@@ -2,6 +2,7 @@
 #include "tools/command_line.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iostream>
 #include <span>
@@ -26,6 +27,12 @@ std::string withNearest(const std::string& found, const std::vector<std::string>
 
 /// What stands before "=".
 std::string nameOf(const std::string& word) { return word.substr(0, word.find('=')); }
+
+std::string inSmallLetters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
 
 std::vector<std::string> commandsOf(const CLI::App& app) {
   std::vector<std::string> names;
@@ -70,7 +77,7 @@ Complaint complaintOf(const CLI::App& app, const std::vector<std::string>& words
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     std::vector<std::string> known = optionsOf(*asked);
     for (const std::string& name : optionsOf(app)) {
-      if (asked != &app) known.push_back(name);
+      if (std::count(known.begin(), known.end(), name) == 0) known.push_back(name);
     }
     for (const std::string& word : words) {
       if (word.size() < 2 || word[0] != '-' || word == "--") continue;
@@ -82,6 +89,8 @@ Complaint complaintOf(const CLI::App& app, const std::vector<std::string>& words
       });
       if (!isKnown) return {"unknown option " + withNearest(name, known), helper};
     }
+    if (const std::vector<std::string> rest = app.remaining(/*recurse=*/true); !rest.empty())
+      return {"unexpected argument \"" + rest.front() + '"', helper};
   }
   return {error.what(), helper};
 }
@@ -111,6 +120,25 @@ CLI::Validator number(NumberRange range) {
     return "found " + text + ", expected " + range.describe();
   };
   return CLI::Validator(check, "");
+}
+
+CLI::Validator oneOf(const std::map<std::string, std::string>& textOf) {
+  const auto change = [textOf](std::string& text) -> std::string {
+    if (const auto found = textOf.find(inSmallLetters(text)); found != textOf.end()) {
+      text = found->second;
+      return {};
+    }
+    std::vector<std::string> known;
+    for (const auto& [word, value] : textOf) known.push_back(word);
+    return "found " + withNearest(text, known);
+  };
+  return CLI::Validator(change, "");
+}
+
+CLI::Validator oneOf(std::initializer_list<const char*> words) {
+  std::map<std::string, std::string> textOf;
+  for (const char* word : words) textOf[word] = word;
+  return oneOf(textOf);
 }
 
 std::optional<int> parseCommandLine(CLI::App& app, const std::vector<std::string>& words) {

@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <initializer_list>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -11,7 +13,7 @@
 #include <vector>
 
 // What the command lines of all programs have in common: --version, errors that begin with the program's
-// name, and numbers whose errors tell the range.
+// name, and numbers and words whose errors tell what is known.
 
 namespace pbrtmedia {
 
@@ -52,6 +54,20 @@ struct NumberRange {
 
 /// A check of an option's text: a number of the range.
 CLI::Validator number(NumberRange range);
+
+/// A change of an option's text (CLI::Option::transform): one of the keys, in capital letters or small ones,
+/// becomes its value; another word is an error that lists the keys.
+CLI::Validator oneOf(const std::map<std::string, std::string>& textOf);
+/// The same for values of an enumeration or bool.
+template <class T>
+CLI::Validator oneOf(const std::map<std::string, T>& valueOf) {
+  static_assert(std::is_enum_v<T> || std::is_same_v<T, bool>);
+  std::map<std::string, std::string> textOf;
+  for (const auto& [word, value] : valueOf) textOf[word] = std::to_string(static_cast<int>(value));
+  return oneOf(textOf);
+}
+/// The same for words that stay as they are.
+CLI::Validator oneOf(std::initializer_list<const char*> words);
 
 /// Parses a program's words, without its name; adds --version. Answers nothing when the program shall go on,
 /// else its exit status: 0 after help or version on standard output; 1 after "name: error: what is wrong" on

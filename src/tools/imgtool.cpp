@@ -24,12 +24,12 @@ using Run = std::function<int()>;
 void addWriteOptions(CLI::App* command, WriteOptions& write) {
   const std::map<std::string, PixelType> pixelTypes{{"half", PixelType::Half}, {"float", PixelType::Float}};
   command->add_option("--pixeltype", write.pixelType, "EXR: half (default) or float numbers")
-      ->transform(CLI::CheckedTransformer(pixelTypes))
+      ->transform(oneOf(pixelTypes))
       ->type_name("TYPE");
   const std::map<std::string, ExrCompression> compressions{
       {"none", ExrCompression::None}, {"zip", ExrCompression::Zip}, {"piz", ExrCompression::Piz}};
   command->add_option("--compression", write.compression, "EXR: zip (default), piz or none")
-      ->transform(CLI::CheckedTransformer(compressions))
+      ->transform(oneOf(compressions))
       ->type_name("NAME");
 }
 
@@ -78,7 +78,8 @@ void addConvert(CLI::App& app, ConvertOptions& o, Run& run) {
   const std::map<std::string, ResizeFilter> filters{{"box", ResizeFilter::Box},
                                                     {"lanczos", ResizeFilter::Lanczos}};
   c->add_option("--resizefilter", o.resizeFilter, "box (default) or lanczos")
-      ->transform(CLI::CheckedTransformer(filters, CLI::ignore_case));
+      ->transform(oneOf(filters))
+      ->type_name("NAME");
   c->add_option("--repeatpix", o.repeatPixels, "repeat pixels in both directions (1)")
       ->check(wholeNumber(1, 4096));
   c->add_flag("--flipy", o.flipY, "turn upside down");

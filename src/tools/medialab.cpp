@@ -31,7 +31,7 @@ void addTableOptions(CLI::App* c, LabOptions& o) {
   c->add_option("-o,--outfile", o.outfile, "file to write, .csv or .json (standard output)");
   const std::map<std::string, TableFormat> formats{{"csv", TableFormat::Csv}, {"json", TableFormat::Json}};
   c->add_option("--format", o.format, "csv or json (as the file's name ends, or csv)")
-      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case))
+      ->transform(oneOf(formats))
       ->type_name("NAME");
 }
 
@@ -91,7 +91,7 @@ void addPattern(CLI::App* c, PatternKind& pattern) {
     names[std::string(kPatternNames[i])] = static_cast<PatternKind>(i);
   }
   c->add_option("--pattern", pattern, "of the random numbers of the estimates in a trial (independent)")
-      ->transform(CLI::CheckedTransformer(names))
+      ->transform(oneOf(names))
       ->type_name("NAME");
 }
 
@@ -99,11 +99,9 @@ void addList(CLI::App& app, ListOptions& o, Run& run) {
   CLI::App* c =
       app.add_subcommand("list", "List estimators with traits and parameters, functions, laws, patterns");
   c->add_option("what", o.what, "estimators, functions, laws, patterns or all (all)")
-      ->check(CLI::IsMember({"estimators", "functions", "laws", "patterns", "all"}));
+      ->transform(oneOf({"estimators", "functions", "laws", "patterns", "all"}));
   const std::map<std::string, bool> formats{{"text", false}, {"json", true}};
-  c->add_option("--format", o.json, "text (default) or json")
-      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case))
-      ->type_name("NAME");
+  c->add_option("--format", o.json, "text (default) or json")->transform(oneOf(formats))->type_name("NAME");
   c->callback([&o, &run] { run = [&o] { return runList(o); }; });
 }
 
