@@ -7,6 +7,7 @@
 #include "scene/description_builder.h"
 
 namespace pbrtmedia {
+
 void DescriptionBuilder::applyDefinition(Statement& s) {
   switch (s.info->id) {
     case Directive::MakeNamedMedium:
