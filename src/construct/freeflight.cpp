@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "construct/tracking_parameters.h"
+#include "media/tracking_choice.h"
 
 namespace pbrtmedia {
 
@@ -31,7 +32,7 @@ AnySampler readFreeFlight(ParamReader& in, const AnyLaw& law, bool walksPieces, 
              "unknown free-flight sampler \"" + *name + "\"" + suggestion(*name, names));
   }
   if ((!name || *name == "auto") && walksPieces && scatters && !traitsOf(sampler).laws.has(law)) {
-    sampler = RegularFlight{};
+    sampler = samplerOfAnyLaw();
   }
   readParameters(in, sampler);
   const SamplerTraits traits = traitsOf(sampler);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "construct/tracking_parameters.h"
+#include "media/tracking_choice.h"
 
 namespace pbrtmedia {
 namespace {
@@ -18,15 +19,12 @@ std::vector<std::string_view> estimatorsThatServe(const AnyLaw& law) {
   return names;
 }
 
-/// What the parameters of a medium that names no estimator are those of.
-const RatioTracking kEstimatorByParameters{.rouletteThreshold = 0.3};
-
 }  // namespace
 
 std::optional<AnyEstimator> readTransmittance(ParamReader& in, bool walksPieces) {
   const std::optional<std::string> name = in.optionalString("transmittance");
   bool isAuto = !name || *name == "auto";
-  AnyEstimator estimator = kEstimatorByParameters;
+  AnyEstimator estimator = ratioTrackingWithRoulette();
   if (name && !isAuto) {
     if (std::optional<AnyEstimator> found = findEstimator(*name)) {
       estimator = *std::move(found);
@@ -46,7 +44,7 @@ std::optional<AnyEstimator> readTransmittance(ParamReader& in, bool walksPieces)
       readParameters(in, *law);
       if (isAuto && !traitsOf(estimator).laws.has(*law)) {
         isAuto = false;
-        estimator = walksPieces ? AnyEstimator(RegularTracking{}) : AnyEstimator(DebiasedRayMarching{});
+        estimator = estimatorOfAnyLaw(walksPieces);
       }
       if (!setLaw(estimator, *law)) {
         std::string text = "estimator \"";

@@ -22,7 +22,6 @@ class ConstantField {
     Point3f p0{0, 0, 0}, p1{1, 1, 1};  ///< opposite corners in medium space; they differ on every axis
   };
   static constexpr std::string_view kTypeName = "constant";
-  static constexpr bool kProvenBounds = true;
 
   /// Throws SceneError (location unknown) when a parameter is out of range.
   ConstantField(const Params& params, const Transform& worldFromMedium);

@@ -34,7 +34,6 @@ class GridField {
     GridLayout layout = GridLayout::Automatic;
   };
   static constexpr std::string_view kTypeName = "grid";
-  static constexpr bool kProvenBounds = true;
 
   /// Throws SceneError (location unknown) that names the parameter or the first bad voxel. A grid of zeros is
   /// valid and clear.

@@ -32,7 +32,6 @@ class NanoVdbField {
     DensityMap map;
   };
   static constexpr std::string_view kTypeName = "nanovdb";
-  static constexpr bool kProvenBounds = true;
 
   /// Throws SceneError: at the file when it or the grid cannot be used (fields/nano_vdb_reader.h), with
   /// unknown location for a bad parameter or a grid that is not there. A grid without active voxels is valid

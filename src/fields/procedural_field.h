@@ -27,7 +27,6 @@ class ProceduralField {
     std::string_view typeName = "procedural";
   };
   static constexpr std::string_view kTypeName = "procedural";
-  static constexpr bool kProvenBounds = true;
 
   /// Throws SceneError (location unknown) when a parameter is out of range.
   ProceduralField(const Params& params, const Transform& worldFromMedium);

@@ -5,8 +5,48 @@
 #include <sstream>
 
 #include "media/cell_emission.h"
+#include "media/probed_density.h"
 
 namespace pbrtmedia {
+namespace {
+
+EmissionSampler::Channels times(Rgb c, double x) { return {c.r * x, c.g * x, c.b * x}; }
+
+}  // namespace
+
+FieldEmission::FieldEmission(Rgb emission, Rgb sigmaT, std::shared_ptr<const EmissionPattern> pattern,
+                             const DensityKernel& density)
+    : emission_(emission), sigmaT_(sigmaT), pattern_(std::move(pattern)) {
+  if (!isEmissive()) return;
+  const SuperVoxels& bounds = density.superVoxels();
+  cellLength_ = lengthOf(bounds.cellSize(), density.worldFromLocal());
+  if (!density.bounds().areProven()) {
+    cells_ = probedDensity(bounds.lattice(), [&](Vec3d p) { return density.uncutDensity(p); });
+  }
+  if (pattern_) cells_ = patterned(cells_ ? *cells_ : bounds, density.worldFromLocal());
+}
+
+double FieldEmission::flightShareAt(const ClippedLine& line, double s) const {
+  double share = 0;
+  line.walkCells([&](double, double sExit, const SuperVoxel& cell) {
+    share = cell.upper > 0 ? flightShare(cell) : 0;
+    return sExit < s;
+  });
+  return share;
+}
+
+bool FieldEmission::addTo(EmissionSampler& sampler, const ClippedLine& line, bool hasFlights) const {
+  bool flies = false;
+  line.walkCells([&](double sEnter, double sExit, const SuperVoxel& cell) {
+    if (!(cell.upper > 0)) return true;
+    const double rest = hasFlights ? 1 - flightShare(cell) : 1;
+    flies |= rest < 1;
+    sampler.add(sEnter, sExit, times(emission_, strengthOf(cell) * rest), times(sigmaT_, densityOf(cell)),
+                rest);
+    return true;
+  });
+  return flies;
+}
 
 SuperVoxels FieldEmission::patterned(const SuperVoxels& bounds, const Transform& worldFromLocal) const {
   const SuperVoxelLattice& lattice = bounds.lattice();

@@ -9,10 +9,10 @@
 #include "base/transform.h"
 #include "fields/super_voxels.h"
 #include "media/control_density.h"
+#include "media/density_kernel.h"
 #include "media/emission_distance.h"
 #include "media/emission_pattern.h"
 #include "media/emission_volume.h"
-#include "media/probed_density.h"
 
 namespace pbrtmedia {
 
@@ -22,18 +22,9 @@ namespace pbrtmedia {
 class FieldEmission {
  public:
   FieldEmission() = default;  ///< nothing
-  /// `emission`: sigma_a Le at density 1. `pattern` may be null. `bounds`: of the field's density.
-  template <class Field>
-  FieldEmission(Rgb emission, Rgb sigmaT, std::shared_ptr<const EmissionPattern> pattern, const Field& field,
-                const SuperVoxels& bounds)
-      : emission_(emission), sigmaT_(sigmaT), pattern_(std::move(pattern)) {
-    if (!isEmissive()) return;
-    cellLength_ = lengthOf(bounds.cellSize(), field.worldFromLocal());
-    if constexpr (!Field::kProvenBounds) {
-      cells_ = probedDensity(bounds.lattice(), [&](Vec3d p) { return field.uncutDensity(p); });
-    }
-    if (pattern_) cells_ = patterned(cells_ ? *cells_ : bounds, field.worldFromLocal());
-  }
+  /// `emission`: sigma_a Le at density 1. `pattern` may be null. `density`: what it is the density of.
+  FieldEmission(Rgb emission, Rgb sigmaT, std::shared_ptr<const EmissionPattern> pattern,
+                const DensityKernel& density);
 
   bool isEmissive() const { return !emission_.isBlack(); }
   /// sigma_a Le at a point of world space where the density is known.
@@ -60,31 +51,11 @@ class FieldEmission {
     const double x = std::clamp((depth - kThin) / (kThick - kThin), 0.0, 1.0);
     return x * x * (3 - 2 * x);
   }
-  /// The same at `s` of a line (FieldLine over `cells`).
-  template <class Line>
-  double flightShareAt(const Line& line, double s) const {
-    double share = 0;
-    line.walk([&](double, double sExit, const SuperVoxel& cell) {
-      share = cell.upper > 0 ? flightShare(cell) : 0;
-      return sExit < s;
-    });
-    return share;
-  }
-  /// Adds what the intervals of a line (FieldLine over `cells`) emit, less the share that flights find if
+  /// The same at `s` of a line (over `cells`).
+  double flightShareAt(const ClippedLine& line, double s) const;
+  /// Adds what the intervals of a line (over `cells`) emit, less the share that flights find if
   /// there are such; a distance comes with what it has to find there as its tag. True: flights find some.
-  template <class Line>
-  bool addTo(EmissionSampler& sampler, const Line& line, bool hasFlights) const {
-    bool flies = false;
-    line.walk([&](double sEnter, double sExit, const SuperVoxel& cell) {
-      if (!(cell.upper > 0)) return true;
-      const double rest = hasFlights ? 1 - flightShare(cell) : 1;
-      flies |= rest < 1;
-      sampler.add(sEnter, sExit, times(emission_, strengthOf(cell) * rest), times(sigmaT_, densityOf(cell)),
-                  rest);
-      return true;
-    });
-    return flies;
-  }
+  bool addTo(EmissionSampler& sampler, const ClippedLine& line, bool hasFlights) const;
   /// For light sampling; null when no cell emits.
   std::unique_ptr<const EmissionVolume> volume(const SuperVoxels& bounds,
                                                const Transform& worldFromLocal) const;
@@ -93,7 +64,6 @@ class FieldEmission {
   std::size_t bytes() const { return (cells_ ? cells_->bytes() : 0) + (pattern_ ? pattern_->bytes() : 0); }
 
  private:
-  static EmissionSampler::Channels times(Rgb c, double x) { return {c.r * x, c.g * x, c.b * x}; }
   /// The edge of a cube of a cell's volume, in world space.
   static double lengthOf(Vec3d cellSize, const Transform& worldFromLocal);
   /// A control of the density.
@@ -101,10 +71,11 @@ class FieldEmission {
     return static_cast<double>(cells_ ? cell.mean : controlDensity(cell));
   }
 
+  SuperVoxels patterned(const SuperVoxels& bounds, const Transform& worldFromLocal) const;
+
   Rgb emission_, sigmaT_;
   double cellLength_ = 0;
   std::shared_ptr<const EmissionPattern> pattern_;
-  SuperVoxels patterned(const SuperVoxels& bounds, const Transform& worldFromLocal) const;
 
   /// upper: strength; mean: control of the density.
   std::optional<SuperVoxels> cells_;

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "base/transform.h"
-#include "fields/constant_field.h"
 #include "fields/grid_field.h"
 #include "media/field_medium_params.h"
 #include "media/medium.h"
@@ -17,12 +16,5 @@ struct GridMediumParams : FieldMediumParams {
   GridField::Params grid;
 };
 std::unique_ptr<Medium> makeGridMedium(const GridMediumParams& params, const Transform& worldFromMedium);
-
-/// A medium of one density inside a box.
-struct ConstantMediumParams : FieldMediumParams {
-  ConstantField::Params field;
-};
-std::unique_ptr<Medium> makeConstantMedium(const ConstantMediumParams& params,
-                                           const Transform& worldFromMedium);
 
 }  // namespace pbrtmedia

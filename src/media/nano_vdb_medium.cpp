@@ -3,19 +3,22 @@
 
 #include <utility>
 
+#include "media/field_kernel.h"
 #include "media/field_medium.h"
-#include "media/unproven_medium.h"
+#include "media/medium_bounds.h"
 
 namespace pbrtmedia {
 
 std::unique_ptr<Medium> makeNanoVdbMedium(const NanoVdbMediumParams& params,
                                           const Transform& worldFromMedium) {
   NanoVdbField field(params.field, worldFromMedium);
-  if (params.bounds.source != BoundsParams::Source::Exact)
-    return makeUnprovenMedium(params, NanoVdbField::kTypeName, std::move(field));
-  SuperVoxels bounds = field.superVoxels(field.lattice(params.bounds.cells));
-  return std::make_unique<FieldMedium<NanoVdbField>>(params, NanoVdbField::kTypeName, std::move(field),
-                                                     std::move(bounds));
+  const SuperVoxelLattice cells = field.lattice(params.bounds.cells);
+  FieldBounds bounds = params.bounds.source == BoundsParams::Source::Exact
+                           ? FieldBounds::proven(field.superVoxels(cells))
+                           : unprovenBounds(params, cells);
+  return std::make_unique<FieldMedium>(
+      params, NanoVdbField::kTypeName,
+      std::make_unique<FieldKernel<NanoVdbField>>(std::move(field), std::move(bounds)));
 }
 
 }  // namespace pbrtmedia

@@ -4,24 +4,28 @@
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "media/field_kernel.h"
 #include "media/field_medium.h"
-#include "media/unproven_medium.h"
+#include "media/medium_bounds.h"
 
 namespace pbrtmedia {
 
 std::unique_ptr<Medium> makeProceduralMedium(const ProceduralMediumParams& params, std::string_view typeName,
                                              const Transform& worldFromMedium) {
   ProceduralField field(params.field, worldFromMedium);
-  if (params.bounds.source != BoundsParams::Source::Exact)
-    return makeUnprovenMedium(params, typeName, std::move(field));
-  std::optional<SuperVoxels> bounds = field.superVoxels(field.lattice(params.bounds.cells));
-  if (!bounds) {
+  const SuperVoxelLattice cells = field.lattice(params.bounds.cells);
+  std::optional<FieldBounds> bounds;
+  if (params.bounds.source != BoundsParams::Source::Exact) {
+    bounds = unprovenBounds(params, cells);
+  } else if (std::optional<SuperVoxels> own = field.superVoxels(cells)) {
+    bounds = FieldBounds::proven(*std::move(own));
+  } else {
     throw SceneError(SourceLocation{}, params.field.function->describe() +
                                            " knows no bounds of its own: \"string bounds\" must be "
                                            "\"progressive\", or \"constant\" with a \"float majorant\"");
   }
-  return std::make_unique<FieldMedium<ProceduralField>>(params, typeName, std::move(field),
-                                                        std::move(bounds));
+  return std::make_unique<FieldMedium>(
+      params, typeName, std::make_unique<FieldKernel<ProceduralField>>(std::move(field), *std::move(bounds)));
 }
 
 }  // namespace pbrtmedia

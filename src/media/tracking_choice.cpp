@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "media/tracking_choice.h"
 
+#include "freeflight/sampler_list.h"
+#include "transmittance/estimator_list.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -24,7 +27,15 @@ AnyEstimator chooseEstimator(const TrackingFacts& facts) {
     const bool isThin = lines.column * facts.sigmaT <= kThin;
     if (facts.batchedLookups && isThin && lines.meanShare >= kEven) return DebiasedRayMarching{};
   }
-  return RatioTracking{.rouletteThreshold = 0.3};
+  return ratioTrackingWithRoulette();
 }
+
+AnyEstimator ratioTrackingWithRoulette() { return RatioTracking{.rouletteThreshold = 0.3}; }
+
+AnyEstimator estimatorOfAnyLaw(bool hasPieces) {
+  return hasPieces ? AnyEstimator(RegularTracking{}) : AnyEstimator(DebiasedRayMarching{});
+}
+
+AnySampler samplerOfAnyLaw() { return RegularFlight{}; }
 
 }  // namespace pbrtmedia

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include "freeflight/any_sampler.h"
 #include "media/line_statistics.h"
 #include "transmittance/any_estimator.h"
 
@@ -21,5 +22,12 @@ struct TrackingFacts {
 ///   - otherwise ratio tracking with a roulette, whose look-ups end where light does.
 /// Unbiased, whatever the facts.
 AnyEstimator chooseEstimator(const TrackingFacts& facts);
+/// The last of these: what the parameters of a scene that names no estimator are parameters of.
+AnyEstimator ratioTrackingWithRoulette();
+
+/// For laws beside the exponential one, by whether the density has cubic pieces: exact where it has.
+AnyEstimator estimatorOfAnyLaw(bool hasPieces);
+/// For such laws where there are pieces.
+AnySampler samplerOfAnyLaw();
 
 }  // namespace pbrtmedia

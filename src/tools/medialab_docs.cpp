@@ -150,7 +150,7 @@ void printMeasured(std::ostream& out, const LabTable& table, double depth, const
   out << "\n| --- |";
   for (std::size_t i = 0; i < kFunctions.size(); ++i) out << " --- |";
   out << '\n';
-  for (const std::string_view name : LabEstimator::names()) {
+  for (const std::string_view name : estimatorNames()) {
     out << "| `" << name << "` |";
     for (const std::string& f : kFunctions) {
       const auto cell = cells.find({std::string(name), f});
@@ -243,7 +243,7 @@ std::string docsPage(const DocsOptions& o, const StopSignal& stop) {
          " grows; *biased*, neither.\n\n"
          "| estimator | bias | control | in [0, 1] | finite variance | bounded cost | laws |\n"
          "| --- | --- | --- | --- | --- | --- | --- |\n";
-  for (const std::string_view name : LabEstimator::names()) {
+  for (const std::string_view name : estimatorNames()) {
     const EstimatorTraits t = LabEstimator(name).traits();
     const bool servesAll = t.laws == LawSet::all();
     out << "| [`" << name << "`](#" << name << ") | " << nameOf(t.bias) << " | " << nameOf(t.control) << " | "
@@ -251,7 +251,7 @@ std::string docsPage(const DocsOptions& o, const StopSignal& stop) {
         << (t.boundedCost ? "yes" : "no") << " | " << (servesAll ? "all" : joined(t.laws.names())) << " |\n";
   }
   out << "\n## Estimators\n";
-  for (const std::string_view name : LabEstimator::names()) printEstimator(out, name);
+  for (const std::string_view name : estimatorNames()) printEstimator(out, name);
   printLaws(out);
   const LabTable table = estimateTable(measured(o), stop);
   if (stop) throw std::runtime_error("stopped: no page is written");

@@ -1,46 +1,36 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "transmittance/law.h"
-#include "transmittance/parameters.h"
-#include "transmittance/traits.h"
+#include "transmittance/any_estimator.h"
 
 namespace pbrtmedia {
 
-/// One of AnyEstimator under a label of the user's. Stands before that type so that few files compile it; see
-/// medialab_held_estimator.h.
+/// A transmittance estimator under a label of the user's.
 class LabEstimator {
  public:
-  struct Held;
-
-  /// The keywords of all estimators, in the order of their list.
-  static std::vector<std::string_view> names();
   /// The estimator called `name` with its default parameters. Throws std::runtime_error, telling the nearest
   /// names, when there is none.
   explicit LabEstimator(std::string_view name);
-  LabEstimator(const LabEstimator& o);
-  LabEstimator(LabEstimator&& o) noexcept;
-  LabEstimator& operator=(LabEstimator o) noexcept;
-  ~LabEstimator();
 
   const std::string& label() const { return label_; }
   void relabel(std::string label) { label_ = std::move(label); }
-  EstimatorTraits traits() const;
-  std::vector<ParameterDescription> parameters() const;
-  AssignResult setParameter(std::string_view name, const ParameterValue& value);
-  AnyLaw law() const;
+  EstimatorTraits traits() const { return traitsOf(estimator_); }
+  std::vector<ParameterDescription> parameters() const { return parametersOf(estimator_); }
+  AssignResult setParameter(std::string_view name, const ParameterValue& value) {
+    return pbrtmedia::setParameter(estimator_, name, value);
+  }
+  AnyLaw law() const { return lawOf(estimator_); }
   /// False, changing nothing, when it cannot serve the law.
-  bool setLaw(const AnyLaw& law);
-  const Held& held() const { return *held_; }
+  bool setLaw(const AnyLaw& law) { return pbrtmedia::setLaw(estimator_, law); }
+  const AnyEstimator& held() const { return estimator_; }
 
  private:
   std::string label_;
-  std::unique_ptr<Held> held_;
+  AnyEstimator estimator_;
 };
 
 }  // namespace pbrtmedia

@@ -60,7 +60,7 @@ std::vector<std::string_view> namesOf(const std::vector<ParameterDescription>& p
 /// The estimators that have a parameter of this name.
 std::vector<std::string_view> ownersOf(std::string_view parameter) {
   std::vector<std::string_view> owners;
-  for (const std::string_view name : LabEstimator::names()) {
+  for (const std::string_view name : estimatorNames()) {
     const auto parameters = LabEstimator(name).parameters();
     if (std::any_of(parameters.begin(), parameters.end(),
                     [&](const ParameterDescription& p) { return p.name == parameter; })) {
@@ -126,7 +126,7 @@ AnyLaw parseLaw(const std::string& name) {
 /// All parameter names of all estimators.
 std::vector<std::string> everyParameter() {
   std::vector<std::string> all;
-  for (const std::string_view name : LabEstimator::names()) {
+  for (const std::string_view name : estimatorNames()) {
     for (const ParameterDescription& p : LabEstimator(name).parameters()) all.push_back(p.name);
   }
   std::sort(all.begin(), all.end());
@@ -145,7 +145,7 @@ std::vector<LabEstimator> EstimatorSelection::select(std::vector<LabTable::Skipp
   std::vector<LabEstimator> chosen;
   if (isAll) {
     if (estimators.size() > 1) throw std::runtime_error("\"all\" stands for every estimator: name no other");
-    for (const std::string_view name : LabEstimator::names()) {
+    for (const std::string_view name : estimatorNames()) {
       chosen.emplace_back(name);
     }
   } else {

@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "base/rng.h"
 #include "samplers/keys.h"
-#include "tools/medialab_held_estimator.h"
+#include "transmittance/estimator_list.h"
 #include "transmittance/sample_stream.h"
 
 // The one file that compiles every estimator on the lab's line.
@@ -120,7 +120,7 @@ void TrialStats::add(const TrialStats& o) {
 
 std::string whyNotApplicable(const LabEstimator& estimator, const CanonicalLine& line) {
   const bool needsPieces =
-      std::visit([]<class E>(const E&) { return kNeedsPieces<E>; }, estimator.held().estimator);
+      visitEstimator([]<class E>(const E&) { return kNeedsPieces<E>; }, estimator.held());
   if (needsPieces && !line.isPiecewiseCubic()) {
     return "needs a density that is a cubic between known points, which " + line.function().about().name +
            " is not";
@@ -131,9 +131,9 @@ std::string whyNotApplicable(const LabEstimator& estimator, const CanonicalLine&
 TrialStats runTrials(const LabEstimator& estimator, const LabProblem& problem, const TrialPlan& plan,
                      std::uint64_t seed, const TrialLimit& limit) {
   const double expected = problem.transmittance(estimator.law());
-  return std::visit(
+  return visitEstimator(
       [&](const auto& held) { return TrialRunner(problem, plan, seed).run(held, limit, expected); },
-      estimator.held().estimator);
+      estimator.held());
 }
 
 TrialStats runTrialsInParallel(const LabEstimator& estimator, const LabProblem& problem,
@@ -158,9 +158,9 @@ RecordedEstimate recordEstimate(const LabEstimator& estimator, const LabProblem&
   line.record(&recorded.points);
   Rng rng(seed);
   SampleStream stream(rng);
-  recorded.value =
-      std::visit([&](const auto& held) { return held(line, Channels<1>{problem.sigmaT}, stream).value[0]; },
-                 estimator.held().estimator);
+  recorded.value = visitEstimator(
+      [&](const auto& held) { return held(line, Channels<1>{problem.sigmaT}, stream).value[0]; },
+      estimator.held());
   return recorded;
 }
 

@@ -1,28 +1,42 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "transmittance/any_estimator.h"
 
-#include "transmittance/variant_names.h"
+#include "transmittance/estimator_list.h"
 
 namespace pbrtmedia {
+namespace {
 
-std::string_view nameOf(const AnyEstimator& estimator) { return alternativeName(estimator); }
-std::optional<AnyEstimator> findEstimator(std::string_view name) {
-  return findAlternative<AnyEstimator>(name);
+AnyEstimator holding(EstimatorVariant variant) {
+  return AnyEstimator(std::make_shared<const AnyEstimator::Held>(AnyEstimator::Held{std::move(variant)}));
 }
-std::vector<std::string_view> estimatorNames() { return alternativeNames<AnyEstimator>(); }
+
+}  // namespace
+
+AnyEstimator::AnyEstimator() : held_(std::make_shared<const Held>()) {}
+
+std::string_view nameOf(const AnyEstimator& estimator) { return alternativeName(estimator.held().variant); }
+std::optional<AnyEstimator> findEstimator(std::string_view name) {
+  auto found = findAlternative<EstimatorVariant>(name);
+  if (!found) return std::nullopt;
+  return holding(*std::move(found));
+}
+std::vector<std::string_view> estimatorNames() { return alternativeNames<EstimatorVariant>(); }
 
 EstimatorTraits traitsOf(const AnyEstimator& estimator) {
-  return std::visit([](const auto& held) { return held.traits(); }, estimator);
+  return visitEstimator([](const auto& held) { return held.traits(); }, estimator);
 }
 std::vector<ParameterDescription> parametersOf(const AnyEstimator& estimator) {
-  return std::visit([](const auto& held) { return describeParameters(held); }, estimator);
+  return visitEstimator([](const auto& held) { return describeParameters(held); }, estimator);
 }
 AssignResult setParameter(AnyEstimator& estimator, std::string_view name, const ParameterValue& value) {
-  return std::visit([&](auto& held) { return assignParameter(held, name, value); }, estimator);
+  EstimatorVariant changed = estimator.held().variant;
+  AssignResult result = std::visit([&](auto& held) { return assignParameter(held, name, value); }, changed);
+  estimator = holding(std::move(changed));
+  return result;
 }
 
 AnyLaw lawOf(const AnyEstimator& estimator) {
-  return std::visit(
+  return visitEstimator(
       [](const auto& held) -> AnyLaw {
         if constexpr (requires { held.law; }) {
           return held.law;
@@ -34,7 +48,8 @@ AnyLaw lawOf(const AnyEstimator& estimator) {
 }
 
 bool setLaw(AnyEstimator& estimator, const AnyLaw& law) {
-  return std::visit(
+  EstimatorVariant changed = estimator.held().variant;
+  const bool isServed = std::visit(
       [&](auto& held) {
         if (!held.traits().laws.has(law)) return false;
         if constexpr (requires { held.law = law; }) {
@@ -44,7 +59,9 @@ bool setLaw(AnyEstimator& estimator, const AnyLaw& law) {
         }
         return true;
       },
-      estimator);
+      changed);
+  if (isServed) estimator = holding(std::move(changed));
+  return isServed;
 }
 
 }  // namespace pbrtmedia

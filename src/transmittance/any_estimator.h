@@ -1,27 +1,37 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "transmittance/any_exponential_estimator.h"
-#include "transmittance/gamma.h"
 #include "transmittance/law.h"
 #include "transmittance/parameters.h"
-#include "transmittance/pink_p_cumulative.h"
-#include "transmittance/taylor_pink_noise.h"
 #include "transmittance/traits.h"
-#include "transmittance/variant_names.h"
 
 namespace pbrtmedia {
 
-/// All transmittance estimators: the list of any_exponential_estimator.h, and here those that are built over
-/// it or serve no exponential law. A new one is its header and one word in one of the two; parser, help text,
-/// contract tests, the lab, docs and benchmarks walk this type. The first is the default.
-using AnyEstimator = AppendedVariant<AnyExponentialEstimator, TaylorPinkNoise, PinkPCumulative, Gamma>;
+/// One of the transmittance estimators with its parameters. Knows none of their code, so that who chooses,
+/// holds and describes estimators does not compile them; transmittance/estimator_list.h does. A value: copies
+/// share until one is changed.
+class AnyEstimator {
+ public:
+  struct Held;
+
+  /// The first of the list.
+  AnyEstimator();
+  /// Of transmittance/estimator_list.h.
+  template <class Estimator>
+  requires requires { Estimator::kName; }
+  AnyEstimator(const Estimator& estimator);
+  explicit AnyEstimator(std::shared_ptr<const Held> held) : held_(std::move(held)) {}
+
+  const Held& held() const { return *held_; }
+
+ private:
+  std::shared_ptr<const Held> held_;
+};
 
 /// The keyword of an estimator.
 std::string_view nameOf(const AnyEstimator& estimator);

@@ -11,12 +11,13 @@
 
 #include "construct/attempt.h"
 #include "main/statistics_report.h"
+#include "support/source_dir.h"
 #include "support/temporary_folder.h"
 
 namespace pbrtmedia::test {
 namespace {
 
-const std::filesystem::path kRoot = PBRT_MEDIA_SOURCE_DIR;
+const std::filesystem::path kRoot = test::sourceDir();
 
 std::string textOf(const std::filesystem::path& file) {
   std::ifstream in(file);

@@ -3,8 +3,8 @@
 #include <set>
 
 #include "construct/probe.h"
-#include "freeflight/any_sampler.h"
-#include "transmittance/any_estimator.h"
+#include "freeflight/sampler_list.h"
+#include "transmittance/estimator_list.h"
 
 namespace pbrtmedia::test {
 namespace {

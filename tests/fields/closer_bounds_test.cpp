@@ -26,7 +26,7 @@ ProceduralField perlin() {
 /// What the refined walk of a line says, checked: consecutive stretches from 0 to the end, whose bounds hold
 /// and are close. Answers how many there are.
 template <class Field>
-int checkedParts(const Field& field, const SuperVoxels& bounds, const Segment& segment, double column) {
+int checkedParts(const Field& field, const FieldBounds& bounds, const Segment& segment, double column) {
   auto line = FieldLine<Field>::clip(field, bounds, segment);
   if (!line) return 0;
   line->refineAbove(column);
@@ -39,7 +39,7 @@ int checkedParts(const Field& field, const SuperVoxels& bounds, const Segment& s
     reached = b;
     ++parts;
     const bool isShortest = b - a <= 0x1p-36 * std::max(b, 1.0);
-    const float rounding = 4.1e-7f * bounds.maximum(), upper = bound.upper - rounding;
+    const float rounding = 4.1e-7f * bounds.inForce().maximum(), upper = bound.upper - rounding;
     EXPECT_TRUE(isShortest || upper * (b - a) <= column || upper <= 2.001f * bound.lower)
         << bound.upper << ' ' << bound.lower << ' ' << b - a;
     const float room = isShortest ? 1e-9f : 0;
@@ -57,9 +57,9 @@ int checkedParts(const Field& field, const SuperVoxels& bounds, const Segment& s
 TEST(CloserBounds, HoldAndAreFewUnderAnyExtinction) {
   Rng rng(kSeed);
   const ProceduralField noise = perlin();
-  const SuperVoxels noiseBounds = *noise.superVoxels();
+  const FieldBounds noiseBounds = FieldBounds::proven(*noise.superVoxels());
   const GridField grid(test::randomGrid(9, 8, 7, GridBorder::Zero, 0.4f, kSeed), Transform());
-  const SuperVoxels gridBounds = grid.superVoxels();
+  const FieldBounds gridBounds = FieldBounds::proven(grid.superVoxels());
   int fewest = 1 << 30, most = 0;
   for (int n = 0; n < 20; ++n) {
     const Segment segment = test::randomSegment(rng, 2);
@@ -77,7 +77,7 @@ TEST(CloserBounds, HoldAndAreFewUnderAnyExtinction) {
 
 TEST(CloserBounds, OfAShorterSegmentAreTheSameAsFarAsItGoes) {
   const ProceduralField field = perlin();
-  const SuperVoxels bounds = *field.superVoxels();
+  const FieldBounds bounds = FieldBounds::proven(*field.superVoxels());
   const auto partsOf = [&](double tMax) {
     auto line = FieldLine<ProceduralField>::clip(field, bounds, {{-1, .4f, .3f}, {1, 0.1f, 0.2f}, 0, tMax});
     line->refineAbove(1e-7);
@@ -96,7 +96,7 @@ TEST(CloserBounds, OfAShorterSegmentAreTheSameAsFarAsItGoes) {
 
 TEST(CloserBounds, ChangeNothingWhereNothingIsWanted) {
   const ProceduralField field = perlin();
-  const SuperVoxels bounds = *field.superVoxels();
+  const FieldBounds bounds = FieldBounds::proven(*field.superVoxels());
   const Segment segment{{-1, .4f, .3f}, {1, 0, 0}, 0, 10};
   auto line = *FieldLine<ProceduralField>::clip(field, bounds, segment);
   std::vector<double> plain, refined;

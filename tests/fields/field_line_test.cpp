@@ -52,7 +52,7 @@ int checkWalk(const Line& line) {
 class FieldLineWalk : public testing::Test {
  protected:
   GridField field{randomGrid(23, 17, 9, GridBorder::Zero, .6f, 8), Transform()};
-  SuperVoxels bounds = field.superVoxels(1);
+  FieldBounds bounds = FieldBounds::proven(field.superVoxels(1));
   std::optional<FieldLine<GridField>> clip(const Segment& s) const {
     return FieldLine<GridField>::clip(field, bounds, s);
   }
@@ -105,7 +105,7 @@ TEST_F(FieldLineWalk, JoinsWithoutGapFromFarAway) {
 
 TEST_F(FieldLineWalk, JoinsWithoutGapAlongDiagonalsThroughCellCorners) {
   const GridField cube(randomGrid(16, 16, 16, GridBorder::Clamp, .3f, 9), Transform());
-  const SuperVoxels cells = cube.superVoxels(1);
+  const FieldBounds cells = FieldBounds::proven(cube.superVoxels(1));
   for (const float sx : {-1.0f, 1.0f}) {
     for (const float sy : {-1.0f, 1.0f}) {
       for (const float shift : {0.0f, .5f / 16, 1.0f / 16}) {
@@ -120,7 +120,7 @@ TEST_F(FieldLineWalk, JoinsWithoutGapAlongDiagonalsThroughCellCorners) {
 
 TEST(FieldLine, EntersAndLeavesWhereTheBoxBeginsAndEnds) {
   const ConstantField field({}, Transform());
-  const SuperVoxels bounds = field.superVoxels();
+  const FieldBounds bounds = FieldBounds::proven(field.superVoxels());
   const auto clip = [&](Point3f o, Vector3f d, double tMin, double tMax) {
     return FieldLine<ConstantField>::clip(field, bounds, {o, d, tMin, tMax});
   };
@@ -143,7 +143,7 @@ TEST(FieldLine, EntersAndLeavesWhereTheBoxBeginsAndEnds) {
 
 TEST(FieldLine, IsNothingWhereThereIsNoLength) {
   const ConstantField field({}, Transform());
-  const SuperVoxels bounds = field.superVoxels();
+  const FieldBounds bounds = FieldBounds::proven(field.superVoxels());
   const auto misses = [&](Point3f o, Vector3f d, double tMin, double tMax) {
     return !FieldLine<ConstantField>::clip(field, bounds, {o, d, tMin, tMax});
   };
@@ -154,13 +154,14 @@ TEST(FieldLine, IsNothingWhereThereIsNoLength) {
   EXPECT_TRUE(misses({.5f, .5f, .5f}, {0, 0, 0}, 0, kInfinity));
   EXPECT_TRUE(misses({-1, .5f, .5f}, {1, 0, 0}, 0, 1));
   const ConstantField clear({0.0f}, Transform());
-  EXPECT_FALSE(FieldLine<ConstantField>::clip(clear, clear.superVoxels(), {{-1, .5f, .5f}, {1, 0, 0}, 0, 9}));
+  const FieldBounds none = FieldBounds::proven(clear.superVoxels());
+  EXPECT_FALSE(FieldLine<ConstantField>::clip(clear, none, {{-1, .5f, .5f}, {1, 0, 0}, 0, 9}));
 }
 
 TEST(FieldLine, IsNothingOrStaysInsideWhereASegmentIsNotFinite) {
   const GridField field(randomGrid(6, 7, 8, GridBorder::Clamp, 0, 11),
                         Transform::rotate(30, {1, 2, 3}) * Transform::scale(2, 3, .5));
-  const SuperVoxels bounds = field.superVoxels(1);
+  const FieldBounds bounds = FieldBounds::proven(field.superVoxels(1));
   constexpr float kBad[] = {
       std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, 3e38f, -1e-42f, 0};
   constexpr double kBadT[] = {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity, 1e300, 0, .25};
@@ -182,7 +183,7 @@ TEST(FieldLine, IsNothingOrStaysInsideWhereASegmentIsNotFinite) {
     const double points[] = {0, l, std::nextafter(l, 0.0), l / 2, l / 3};
     float out[5];
     line->densities(points, out);
-    for (const float density : out) ASSERT_TRUE(density >= 0 && density <= bounds.maximum());
+    for (const float density : out) ASSERT_TRUE(density >= 0 && density <= bounds.inForce().maximum());
   }
   EXPECT_GT(lines, 10000);
 }

@@ -73,7 +73,7 @@ void onEveryTargetAndStorage(Test&& test) {
 TEST_F(GridBatch, EqualsItsTwinForEverySizeOfBatch) {
   onEveryTargetAndStorage([](const Case& c) {
     const GridField field = fieldOf(c.precision, c.layout);
-    const SuperVoxels bounds = field.superVoxels(1);
+    const FieldBounds bounds = FieldBounds::proven(field.superVoxels(1));
     Rng rng(1);
     for (std::size_t n = 0; n <= 67; ++n) {
       for (int ray = 0; ray < 20; ++ray) {
@@ -95,7 +95,7 @@ TEST_F(GridBatch, EqualsItsTwinForEverySizeOfBatch) {
 TEST_F(GridBatch, EqualsItsTwinAtTheEndsOfALineAndOnFacesAndEdges) {
   onEveryTargetAndStorage([](const Case& c) {
     const GridField field = fieldOf(c.precision, c.layout, GridBorder::Clamp);
-    const SuperVoxels bounds = field.superVoxels(2);
+    const FieldBounds bounds = FieldBounds::proven(field.superVoxels(2));
     Rng rng(2);
     for (int n = 0; n < 2000; ++n) {
       // Origins on faces, edges and corners of the box, on lattice planes, or anywhere.
@@ -133,7 +133,7 @@ TEST_F(GridBatch, EqualsItsTwinOnGridsThinnerThanACell) {
       params.precision = c.precision;
       params.layout = c.layout;
       const GridField field(params, Transform());
-      const SuperVoxels bounds = field.superVoxels(2);
+      const FieldBounds bounds = FieldBounds::proven(field.superVoxels(2));
       Rng rng(5);
       for (int ray = 0; ray < 200; ++ray) {
         const auto line = Line::clip(field, bounds, randomSegment(rng, 2));
@@ -158,7 +158,7 @@ TEST_F(GridBatch, RunsOnTheScalarTwinAndNamesItsTargets) {
 
 TEST(FieldLineBatch, OfAConstantFieldIsItsDensity) {
   const ConstantField field({.5f}, Transform());
-  const SuperVoxels bounds = field.superVoxels();
+  const FieldBounds bounds = FieldBounds::proven(field.superVoxels());
   const auto line = FieldLine<ConstantField>::clip(field, bounds, {{-1, .5f, .5f}, {1, 0, 0}, 0, kInfinity});
   ASSERT_TRUE(line);
   const double s[] = {0, .25, .5, .75, 1};

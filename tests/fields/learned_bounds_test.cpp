@@ -12,7 +12,6 @@
 #include "fields/constant_field.h"
 #include "fields/explore_bounds.h"
 #include "fields/field_line.h"
-#include "fields/unproven_field.h"
 
 namespace pbrtmedia {
 namespace {
@@ -220,30 +219,34 @@ TEST(LearnedBounds, StartWhereOthersStopped) {
   EXPECT_EQ(second.save(), first.save());
 }
 
-TEST(UnprovenField, IsItsFieldCutToBoundsThatAreLearned) {
-  ConstantField constant({.density = 3}, Transform());
-  UnprovenField<ConstantField> field(constant, constant.superVoxels().lattice(),
-                                     {.initial = .5f, .epsilon = .5f});
-  EXPECT_EQ(field.density({.5, .5, .5}), .5f);
-  field.learned()->publish();
-  EXPECT_EQ(field.density({.5, .5, .5}), 3.0f);
+TEST(FieldBounds, CutTheDensityWhereTheyAreLearned) {
+  const ConstantField field({.density = 3}, Transform());
+  const FieldBounds bounds =
+      FieldBounds::learned(field.superVoxels().lattice(), {.initial = .5f, .epsilon = .5f});
+  EXPECT_FALSE(bounds.areProven());
   const Segment through{{-1, .5f, .5f}, {1, 0, 0}, 0, 10};
-  const auto line = FieldLine<UnprovenField<ConstantField>>::clip(field, field.inForce(), through);
+  const auto line = FieldLine<ConstantField>::clip(field, bounds, through);
   ASSERT_TRUE(line);
+  EXPECT_FALSE(line->hasProvenBounds());
+  EXPECT_EQ(line->density(.5), .5f);
+  bounds.learned()->publish();
+  EXPECT_EQ(line->density(.5), 3.0f);
   const std::vector<double> s{.1, .5, .9, .95, .99};
   std::vector<float> out(s.size());
   line->densities(s, out);
   EXPECT_EQ(out, std::vector<float>(5, 3.0f));
 }
 
-TEST(UnprovenField, IsItsFieldWhereBoundsAreGiven) {
-  ConstantField constant({.density = 3}, Transform());
-  UnprovenField<ConstantField> field(constant,
-                                     SuperVoxels(constant.superVoxels().lattice(), SuperVoxel{.5f, 0, -1}));
-  EXPECT_EQ(field.learned(), nullptr);
-  EXPECT_EQ(field.inForce().maximum(), .5f);
-  EXPECT_EQ(field.density({.5, .5, .5}), 3.0f);
-  static_assert(!PiecewiseCubicField<UnprovenField<ConstantField>> && PiecewiseCubicField<ConstantField>);
+TEST(FieldBounds, CutNothingWhereTheyAreGiven) {
+  const ConstantField field({.density = 3}, Transform());
+  const FieldBounds bounds =
+      FieldBounds::given(SuperVoxels(field.superVoxels().lattice(), SuperVoxel{.5f, 0, -1}));
+  EXPECT_EQ(bounds.learned(), nullptr);
+  EXPECT_EQ(bounds.inForce().maximum(), .5f);
+  const auto line = FieldLine<ConstantField>::clip(field, bounds, {{-1, .5f, .5f}, {1, 0, 0}, 0, 10});
+  ASSERT_TRUE(line);
+  EXPECT_FALSE(line->hasProvenBounds());
+  EXPECT_EQ(line->density(.5), 3.0f);
 }
 
 }  // namespace

@@ -334,7 +334,7 @@ TEST(NanoVdbBounds, ABoundFromTheBricksOwnVoxelsAloneWouldBeViolated) {
 TEST(NanoVdbField, PiecesAreCubicsThatJoin) {
   const NanoVdbField field =
       load({.min = {-20, -9, -9}, .max = {20, 9, 9}, .valueAt = noiseAt, .worldFromIndex = askew()});
-  const SuperVoxels bounds = field.superVoxels();
+  const FieldBounds bounds = FieldBounds::proven(field.superVoxels());
   Rng rng(8);
   int lines = 0;
   for (int n = 0; n < 40; ++n) {

@@ -10,7 +10,6 @@
 #include "fields/field_line.h"
 #include "fields/grid_field.h"
 #include "fields/procedural_field.h"
-#include "fields/unproven_field.h"
 
 namespace pbrtmedia {
 namespace {
@@ -100,17 +99,15 @@ TEST(WantedCells, OfUnequalEdgesAreWalkedWithoutGaps) {
 }
 
 TEST(WantedCells, LeaveNoSliverBehindTheLastFace) {
-  const UnprovenField<ConstantField> field(
-      ConstantField({.density = 3}, Transform()),
-      SuperVoxels({LatticeShape{{32, 32, 32}}, Vec3d(1, 1, 1) / 32., {{0, 0, 0}, {1, 1, 1}}},
-                  SuperVoxel{2, 0, -1}));
+  const ConstantField field({.density = 3}, Transform());
+  const FieldBounds bounds = FieldBounds::given(SuperVoxels(
+      {LatticeShape{{32, 32, 32}}, Vec3d(1, 1, 1) / 32., {{0, 0, 0}, {1, 1, 1}}}, SuperVoxel{2, 0, -1}));
   Rng rng(kSeed);
   int lines = 0;
   for (int n = 0; n < 20000; ++n) {
     const Point3f o(4 * rng.uniform() - 1.5f, 4 * rng.uniform() - 1.5f, -2);
     const Point3f to(rng.uniform(), rng.uniform(), rng.uniform());
-    const auto line =
-        FieldLine<UnprovenField<ConstantField>>::clip(field, field.inForce(), {o, to - o, 0, 9});
+    const auto line = FieldLine<ConstantField>::clip(field, bounds, {o, to - o, 0, 9});
     if (!line) continue;
     ++lines;
     double reached = 0;

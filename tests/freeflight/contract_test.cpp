@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "freeflight/any_sampler.h"
+#include "freeflight/sampler_list.h"
 #include "support/contract_line.h"
 #include "support/statistics.h"
 
@@ -23,9 +23,9 @@ constexpr std::uint64_t kSeed = 20241125;
 template <std::size_t N>
 FlightSample<N> run(const AnySampler& sampler, const ContractLine& line, const Channels<N>& sigmaT, Rng& rng,
                     double albedo = .8, const AnyLaw* law = nullptr) {
-  return std::visit(
+  return visitSampler(
       [&](const auto& held) {
-        return fly(held, line, FlightQuery<N>{sigmaT, filled<N>(albedo), filled<N>(1), law}, rng);
+        return flyOn(held, line, FlightQuery<N>{sigmaT, filled<N>(albedo), filled<N>(1), law}, rng);
       },
       sampler);
 }
@@ -160,7 +160,7 @@ TEST_P(SamplerContract, GivesEveryImportanceTheSameMeans) {
     double largest = 0;
     for (int n = 0; n < 40000; ++n) {
       const auto flight =
-          std::visit([&](const auto& held) { return fly(held, ContractLine(), query, rng); }, sampler_);
+          visitSampler([&](const auto& held) { return flyOn(held, ContractLine(), query, rng); }, sampler_);
       double mean = 0;
       for (std::size_t c = 0; c < 3; ++c) {
         passed[c].add(flight.collided ? 0 : flight.weight[c]);

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "freeflight/any_sampler.h"
+#include "freeflight/sampler_list.h"
 #include "support/function_line.h"
 #include "support/statistics.h"
 
@@ -85,9 +85,9 @@ TEST(WeightedDeltaTracking, DoesNotTrustALowerBoundThatNobodyProved) {
                                     AnySampler(DecompositionTracking{})}) {
     RunningStats passed;
     for (int n = 0; n < 100000; ++n) {
-      const auto flight = std::visit(
+      const auto flight = visitSampler(
           [&](const auto& held) {
-            return fly(held, line, FlightQuery<1>{{1}, {.5}}, rng);
+            return flyOn(held, line, FlightQuery<1>{{1}, {.5}}, rng);
           },
           sampler);
       passed.add(flight.collided ? 0 : flight.weight[0]);
@@ -216,7 +216,7 @@ TEST(WeightedDeltaTracking, CountsDensityUnderABoundOfZeroAndEnds) {
 
 TEST(AnySampler, IsFoundByEveryNameOfTheList) {
   const auto names = samplerNames();
-  EXPECT_EQ(names.size(), std::variant_size_v<AnySampler>);
+  EXPECT_EQ(names.size(), std::variant_size_v<SamplerVariant>);
   for (const auto name : names) {
     const auto sampler = findSampler(name);
     ASSERT_TRUE(sampler) << name;

@@ -11,6 +11,7 @@
 #include "media/homogeneous.h"
 #include "support/grids.h"
 #include "support/statistics.h"
+#include "transmittance/estimator_list.h"
 
 namespace pbrtmedia {
 namespace {
@@ -26,28 +27,21 @@ using test::zTest;
 constexpr std::uint64_t kSeed = 20240611;
 const Segment kAxis{{-1, .5f, .5f}, {1, 0, 0}, 0, kInfinity};
 
-template <class Params>
-Params withSigma(Rgb sigmaA, Rgb sigmaS, AnyEstimator estimator = {}) {
-  Params params;
+std::unique_ptr<Medium> gridMedium(GridField::Params grid, Rgb sigmaA, Rgb sigmaS,
+                                   AnyEstimator estimator = {}, const Transform& worldFromMedium = {}) {
+  GridMediumParams params;
   params.name = "smoke";
   params.sigmaA = sigmaA;
   params.sigmaS = sigmaS;
   params.estimator = estimator;
-  return params;
-}
-
-std::unique_ptr<Medium> gridMedium(GridField::Params grid, Rgb sigmaA, Rgb sigmaS,
-                                   AnyEstimator estimator = {}, const Transform& worldFromMedium = {}) {
-  auto params = withSigma<GridMediumParams>(sigmaA, sigmaS, estimator);
   params.grid = std::move(grid);
   return makeGridMedium(params, worldFromMedium);
 }
 
-/// The same constant density as one box, one voxel, and many.
+/// The same constant density as one voxel and as many.
 std::vector<std::unique_ptr<Medium>> constantMedia(float sigmaT) {
   std::vector<std::unique_ptr<Medium>> media;
   const Rgb a(.75f * sigmaT), s(.25f * sigmaT);
-  media.push_back(makeConstantMedium(withSigma<ConstantMediumParams>(a, s), Transform()));
   media.push_back(gridMedium(constantGrid(1, GridBorder::Clamp), a, s));
   media.push_back(gridMedium(constantGrid(64, GridBorder::Clamp), a, s));
   return media;
@@ -237,14 +231,19 @@ TEST(GridMedium, RefusesBadParameters) {
   const auto grid = constantGrid(2, GridBorder::Zero);
   EXPECT_THROW(gridMedium(grid, Rgb(-1), Rgb(1)), SceneError);
   EXPECT_THROW(gridMedium(grid, Rgb(1), Rgb(kInfinity)), SceneError);
-  auto params = withSigma<GridMediumParams>(Rgb(1), Rgb(1));
+  GridMediumParams params;
+  params.name = "smoke";
+  params.sigmaA = params.sigmaS = Rgb(1);
   params.grid = grid;
   params.phase = {{PhaseLobe::Kind::HenyeyGreenstein, -1, 1}};
   EXPECT_THROW(makeGridMedium(params, Transform()), SceneError);
 }
 
 TEST(GridMedium, DescribesItselfInOneLine) {
-  auto params = withSigma<GridMediumParams>(Rgb(1), Rgb(1));
+  GridMediumParams params;
+  params.name = "smoke";
+  params.sigmaA = params.sigmaS = Rgb(1);
+  params.estimator = AnyEstimator();
   params.grid = constantGrid(8, GridBorder::Clamp);
   const auto medium = makeGridMedium(params, Transform());
   EXPECT_EQ(medium->typeName(), "heterogeneous");

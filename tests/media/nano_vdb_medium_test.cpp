@@ -11,7 +11,7 @@
 #include "support/grids.h"
 #include "support/statistics.h"
 #include "support/temporary_folder.h"
-#include "transmittance/any_estimator.h"
+#include "transmittance/estimator_list.h"
 
 namespace pbrtmedia {
 namespace {

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "media/field_kernel.h"
 #include "media/grid_medium.h"
 #include "media/procedural_medium.h"
 #include "support/grids.h"
+#include "transmittance/estimator_list.h"
 
 namespace pbrtmedia {
 namespace {
@@ -48,7 +50,7 @@ TEST(TrackingChoice, TrustsNoBoundThatNobodyProved) {
   for (TrackingFacts facts : {thinGrid(), TrackingFacts{.lines = {.pieces = 2, .lowerShare = 1}}}) {
     facts.provenBounds = false;
     EXPECT_EQ(chosen(facts), "ratio");
-    EXPECT_GT(std::get<RatioTracking>(chooseEstimator(facts)).rouletteThreshold, 0);
+    EXPECT_GT(std::get<RatioTracking>(chooseEstimator(facts).held().variant).rouletteThreshold, 0);
   }
 }
 
@@ -81,9 +83,12 @@ TEST(TrackingChoice, IsMadeFromTheMediumsOwnStatistics) {
 
 TEST(LineStatistics, AreTheIntegralsOverTheChords) {
   // In a constant medium both bounds are the density; the mean chord of these lines is that of the unit cube.
-  const GridField grid(test::constantGrid(16, GridBorder::Clamp), Transform());
-  const SuperVoxels bounds = grid.superVoxels({});
-  const LineStatistics lines = lineStatistics(grid, bounds);
+  const auto of = [](const Transform& worldFromMedium) {
+    GridField grid(test::constantGrid(16, GridBorder::Clamp), worldFromMedium);
+    FieldBounds bounds = FieldBounds::proven(grid.superVoxels({}));
+    return lineStatistics(FieldKernel<GridField>(std::move(grid), std::move(bounds)));
+  };
+  const LineStatistics lines = of(Transform());
   EXPECT_NEAR(lines.lowerShare, 1, 1e-6);
   EXPECT_NEAR(lines.meanShare, 1, 1e-6);
   EXPECT_GT(lines.column, .5);
@@ -91,8 +96,7 @@ TEST(LineStatistics, AreTheIntegralsOverTheChords) {
   EXPECT_GT(lines.pieces, 8);
   EXPECT_LT(lines.pieces, 3 * 18);
   // Twice as large, the same lines are twice as long.
-  const GridField larger(test::constantGrid(16, GridBorder::Clamp), Transform::scale({2, 2, 2}));
-  EXPECT_NEAR(lineStatistics(larger, bounds).column, 2 * lines.column, 1e-5 * lines.column);
+  EXPECT_NEAR(of(Transform::scale(2, 2, 2)).column, 2 * lines.column, 1e-5 * lines.column);
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "freeflight/any_sampler.h"
+#include "freeflight/sampler_list.h"
 #include "support/render_scene.h"
 #include "support/temporary_folder.h"
-#include "transmittance/any_estimator.h"
+#include "transmittance/estimator_list.h"
 #ifdef PBRT_MEDIA_HAS_NANOVDB
 #include "fields/nano_vdb_samples.h"
 #endif

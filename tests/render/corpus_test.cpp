@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "support/render_scene.h"
+#include "support/source_dir.h"
 
 namespace pbrtmedia::test {
 namespace {
@@ -94,9 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Corpus, testing::ValuesIn(corpus()),
 
 // ---- Scenes that PBRT-v3 rendered ----------------------------------------------------------------------
 
-std::filesystem::path caseFolder() {
-  return std::filesystem::path(PBRT_MEDIA_SOURCE_DIR) / ".." / "shared" / "cases";
-}
+std::filesystem::path caseFolder() { return test::sourceDir() / ".." / "shared" / "cases"; }
 
 constexpr double kMaxMeanDifference = 0.005;  // of the reference's mean, as in parity_test.cpp
 /// The references have about the noise of our mean image: what both explain is twice that.

@@ -15,11 +15,12 @@
 #include "media/medium.h"
 #include "scene/param_reader.h"
 #include "support/render_scene.h"
+#include "support/source_dir.h"
 
 namespace pbrtmedia::test {
 namespace {
 
-const std::filesystem::path kSource = PBRT_MEDIA_SOURCE_DIR;
+const std::filesystem::path kSource = test::sourceDir();
 
 std::vector<std::string> exampleScenes() {
   std::vector<std::string> names;

@@ -7,13 +7,12 @@
 
 #include "scene/parse.h"
 #include "scene/print.h"
+#include "support/source_dir.h"
 
 namespace pbrtmedia {
 namespace {
 
-std::filesystem::path folder() {
-  return std::filesystem::path(PBRT_MEDIA_SOURCE_DIR) / "../shared/scenes/pbrt-v3";
-}
+std::filesystem::path folder() { return test::sourceDir() / "../shared/scenes/pbrt-v3"; }
 
 Parsed parseScene(const std::string& name) {
   Parsed p;

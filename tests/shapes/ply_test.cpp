@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "shapes/ply.h"
+#include "support/source_dir.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -232,7 +233,7 @@ TEST(Ply, ReadsFilesPlainAndCompressed) {
 }
 
 TEST(Ply, ReadsRealFiles) {
-  const std::filesystem::path folder = PBRT_MEDIA_SOURCE_DIR "/../shared/scenes/pbrt-v3/geometry";
+  const std::filesystem::path folder = test::sourceDir() / "../shared/scenes/pbrt-v3/geometry";
   if (!std::filesystem::exists(folder / "knot.ply")) GTEST_SKIP() << "no sample scenes";
   const PlyMesh knot = readPly(folder / "knot.ply"), smoke = readPly(folder / "smoke-box.ply");
   EXPECT_EQ(knot.mesh.P.size(), 19200u);

@@ -17,6 +17,7 @@
 #include "integrators/render_loop.h"
 #include "scene/parser.h"
 #include "support/running_stats.h"
+#include "support/source_dir.h"
 #include "support/z_test.h"
 
 // Whole renders of scenes given as text, through the same parser, construction and loop as the program.
@@ -192,8 +193,7 @@ inline const std::string kWhiteEnvironment = "LightSource \"infinite\" \"rgb L\"
 
 /// The folder of real PBRT-v3 scenes, where it exists beside the checkout.
 inline std::optional<std::filesystem::path> pbrtSceneFolder() {
-  const std::filesystem::path folder =
-      std::filesystem::path(PBRT_MEDIA_SOURCE_DIR) / ".." / "shared" / "scenes" / "pbrt-v3";
+  const std::filesystem::path folder = test::sourceDir() / ".." / "shared" / "scenes" / "pbrt-v3";
   if (!std::filesystem::is_directory(folder)) return std::nullopt;
   return folder;
 }

@@ -190,7 +190,7 @@ TEST_P(KnownBounds, WhatHasNoNoiseHasNoErrorBeyondRounding) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, KnownBounds, testing::ValuesIn(LabEstimator::names()),
+INSTANTIATE_TEST_SUITE_P(Every, KnownBounds, testing::ValuesIn(estimatorNames()),
                          [](const testing::TestParamInfo<std::string_view>& parameter) {
                            std::string name(parameter.param);
                            std::erase(name, '-');

@@ -94,7 +94,7 @@ TEST_P(MeansOfAll, AreNotSomethingElse) {
   EXPECT_EQ(verdictOf(estimator_, cell, .1).kind, Kind::Fail);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, MeansOfAll, testing::ValuesIn(LabEstimator::names()),
+INSTANTIATE_TEST_SUITE_P(Every, MeansOfAll, testing::ValuesIn(estimatorNames()),
                          [](const testing::TestParamInfo<std::string_view>& parameter) {
                            std::string name(parameter.param);
                            std::erase(name, '-');

@@ -11,6 +11,7 @@
 
 #include "image/image.h"
 #include "support/process.h"
+#include "support/source_dir.h"
 #include "support/temporary_folder.h"
 #include "support/z_test.h"
 
@@ -199,7 +200,7 @@ TEST(Medialab, ListsEverythingThereIs) {
 }
 
 TEST(Medialab, ThePageOfEstimatorsKnowsAllOfThem) {
-  std::ifstream in(PBRT_MEDIA_SOURCE_DIR "/docs/estimators.md");
+  std::ifstream in(test::sourceDir() / "docs/estimators.md");
   std::stringstream page;
   page << in.rdbuf();
   const json list = json::parse(lab("list --format json").output);
@@ -220,7 +221,7 @@ TEST(Medialab, ThePageOfEstimatorsIsWrittenByItsCommand) {
   // Every sentence of the page in the repository comes from the command; measured numbers differ.
   EXPECT_EQ(lab("docs --trials 50 --quiet -o estimators.md", one.path().string()).status, 0);
   const std::string page = one.read("estimators.md");
-  std::ifstream kept(PBRT_MEDIA_SOURCE_DIR "/docs/estimators.md");
+  std::ifstream kept(test::sourceDir() / "docs/estimators.md");
   std::size_t sentences = 0;
   for (std::string line; std::getline(kept, line);) {
     if (line.empty() || line.find_first_of("0123456789") != std::string::npos) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/any_estimator.h"
+#include "transmittance/estimator_list.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@ namespace {
 
 TEST(AnyEstimator, IsFoundByEveryNameOfTheList) {
   const auto names = estimatorNames();
-  EXPECT_EQ(names.size(), std::variant_size_v<AnyEstimator>);
+  EXPECT_EQ(names.size(), std::variant_size_v<EstimatorVariant>);
   for (const auto name : names) {
     const auto estimator = findEstimator(name);
     ASSERT_TRUE(estimator) << name;

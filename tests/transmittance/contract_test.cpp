@@ -9,7 +9,7 @@
 #include "support/contract_line.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
-#include "transmittance/any_estimator.h"
+#include "transmittance/estimator_list.h"
 
 namespace pbrtmedia {
 namespace {
@@ -22,7 +22,8 @@ constexpr std::uint64_t kSeed = 20241122;
 
 template <std::size_t N, class Line>
 Estimate<N> run(const AnyEstimator& estimator, const Line& line, const Channels<N>& sigmaT, Rng& rng) {
-  return std::visit([&](const auto& held) { return test::runEstimator(held, line, sigmaT, rng); }, estimator);
+  return visitEstimator([&](const auto& held) { return test::runEstimator(held, line, sigmaT, rng); },
+                        estimator);
 }
 
 class EstimatorContract : public testing::TestWithParam<std::string_view> {

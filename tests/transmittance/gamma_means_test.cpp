@@ -8,7 +8,7 @@
 #include "fields/canonical_line.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
-#include "transmittance/any_estimator.h"
+#include "transmittance/estimator_list.h"
 
 namespace pbrtmedia {
 namespace {

@@ -12,7 +12,7 @@
 #include "fields/canonical_line.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
-#include "transmittance/any_estimator.h"
+#include "transmittance/estimator_list.h"
 
 namespace pbrtmedia {
 namespace {
@@ -245,11 +245,11 @@ TEST(Gamma, TakesEveryExponentialEstimatorForItsBase) {
 TEST(Gamma, PassesParametersToItsBaseAndRefusesUnknownBases) {
   AnyEstimator estimator = Gamma{};
   EXPECT_FALSE(setParameter(estimator, "roulettethreshold", .25).error);
-  EXPECT_EQ(std::get<RatioTracking>(std::get<Gamma>(estimator).base).rouletteThreshold, .25);
+  EXPECT_EQ(std::get<RatioTracking>(std::get<Gamma>(estimator.held().variant).base).rouletteThreshold, .25);
   EXPECT_FALSE(setParameter(estimator, "rate", .7).known);
   EXPECT_FALSE(setParameter(estimator, "base", std::string("debiased-ray-marching")).error);
   EXPECT_FALSE(setParameter(estimator, "rate", .7).error);
-  EXPECT_EQ(std::get<DebiasedRayMarching>(std::get<Gamma>(estimator).base).rate, .7);
+  EXPECT_EQ(std::get<DebiasedRayMarching>(std::get<Gamma>(estimator.held().variant).base).rate, .7);
   EXPECT_TRUE(setParameter(estimator, "rate", .3).error);
   const AssignResult wrong = setParameter(estimator, "base", std::string("gamma"));
   ASSERT_TRUE(wrong.known && wrong.error);
@@ -258,7 +258,7 @@ TEST(Gamma, PassesParametersToItsBaseAndRefusesUnknownBases) {
   ASSERT_TRUE(number.known && number.error);
   EXPECT_NE(number.error->find("found 3"), std::string::npos) << *number.error;
   EXPECT_TRUE(setLaw(estimator, PinkNoiseLaw{.8}));
-  EXPECT_EQ(std::get<Gamma>(estimator).law.correlation, .8);
+  EXPECT_EQ(std::get<Gamma>(estimator.held().variant).law.correlation, .8);
   EXPECT_FALSE(setLaw(estimator, DavisLaw{}));
   EXPECT_FALSE(setLaw(estimator, ExponentialLaw{}));
 }

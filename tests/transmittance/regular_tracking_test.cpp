@@ -23,7 +23,7 @@ using test::randomGrid;
 
 template <class Field>
 double columnAlong(const Field& field, const Segment& segment) {
-  const SuperVoxels bounds = field.superVoxels();
+  const FieldBounds bounds = FieldBounds::proven(field.superVoxels());
   const auto line = FieldLine<Field>::clip(field, bounds, segment);
   LookupTally tally;
   return line ? RegularTracking::densityIntegral(*line, 1e300, tally) : 0;
@@ -37,7 +37,7 @@ TEST(RegularTracking, FollowsBeerLambertOverTheWholeLadder) {
   const GridField many(constantGrid(64, GridBorder::Clamp), Transform());
   const auto check = [](const auto& field, double tau) {
     using Field = std::decay_t<decltype(field)>;
-    const SuperVoxels bounds = field.superVoxels();
+    const FieldBounds bounds = FieldBounds::proven(field.superVoxels());
     const auto line = FieldLine<Field>::clip(field, bounds, kCentralAxis);
     Rng rng;
     const double t = runEstimator(RegularTracking(), *line, Channels<1>{tau}, rng).value[0];
@@ -54,7 +54,7 @@ TEST(RegularTracking, FollowsBeerLambertOverTheWholeLadder) {
 
 TEST(RegularTracking, IsExactlyZeroWhereNoDoubleIsLeft) {
   const GridField many(constantGrid(64, GridBorder::Clamp), Transform());
-  const SuperVoxels bounds = many.superVoxels();
+  const FieldBounds bounds = FieldBounds::proven(many.superVoxels());
   const auto line = FieldLine<GridField>::clip(many, bounds, kCentralAxis);
   Rng rng;
   for (const double tau : {1e3, 1e6, 1e30}) {
@@ -93,7 +93,7 @@ TEST(RegularTracking, KnowsTheIntegralsOfOneHotCorner) {
 
 TEST(RegularTracking, AgreesWithBruteForceOnRandomGrids) {
   const GridField field(randomGrid(9, 7, 8, GridBorder::Zero, .3f, 4), Transform::rotate(40, {1, 1, 0}));
-  const SuperVoxels bounds = field.superVoxels(1);
+  const FieldBounds bounds = FieldBounds::proven(field.superVoxels(1));
   Rng rng(5);
   for (int n = 0; n < 30; ++n) {
     const Segment ray = test::randomSegment(rng, 2);

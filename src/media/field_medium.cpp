@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "media/field_medium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+#include <variant>
+
+#include "base/diagnostics.h"
+#include "fields/explore_bounds.h"
+#include "media/coefficients.h"
+#include "media/control_density.h"
+#include "media/line_statistics.h"
+#include "media/rgb_channels.h"
+#include "media/tracking_choice.h"
+
+namespace pbrtmedia {
+namespace {
+
+constexpr Rgb kNaN{std::numeric_limits<float>::quiet_NaN()};
+/// Optical depth of a bound above which it is refined: far above what is rendered every day, and some tenths
+/// of a millisecond of null collisions.
+constexpr double kRefinedDepth = 0x1p14;
+/// Of a segment's length: rounding of the place where it leaves the medium.
+constexpr double kEndSlack = 1e-12;
+
+bool hasNaN(const Segment& s) {
+  return std::isnan(s.tMin) || std::isnan(s.tMax) || std::isnan(s.o.x + s.o.y + s.o.z) ||
+         std::isnan(s.d.x + s.d.y + s.d.z);
+}
+
+Vec3d pointOf(const Segment& segment, double t) { return Vec3d(segment.o) + t * Vec3d(segment.d); }
+
+}  // namespace
+
+FieldMedium::FieldMedium(const FieldMediumParams& params, std::string_view typeName,
+                         std::unique_ptr<const DensityKernel> kernel)
+    : Medium(params.name, params.overlap),
+      typeName_(typeName),
+      kernel_(std::move(kernel)),
+      sigmaS_(params.sigmaS),
+      sigmaT_(params.sigmaA + params.sigmaS),
+      isAuto_(!params.estimator),
+      sampler_(params.sampler),
+      samplingPattern_(params.pattern),
+      phase_(makePhaseFunction(params.phase)),
+      emission_(params.sigmaA * params.le, sigmaT_, params.emissionPattern, *kernel_) {
+  checkCoefficients(params.sigmaA, params.sigmaS, name());
+  checkEmission(params.le, params.sigmaA * params.le, name());
+  albedo_ = albedoOf(sigmaS_, sigmaT_);
+  estimator_ = params.estimator ? *params.estimator
+                                : chooseEstimator({.lines = lineStatistics(*kernel_),
+                                                   .sigmaT = static_cast<double>(sigmaT_.max()),
+                                                   .provenBounds = kernel_->bounds().areProven(),
+                                                   .batchedLookups = kernel_->hasBatches()});
+  law_ = lawOf(estimator_);
+  isExponential_ = std::holds_alternative<ExponentialLaw>(law_);
+  if (!traitsOf(sampler_).laws.has(law_) && !sigmaS_.isBlack()) {
+    throw SceneError(SourceLocation{}, "free flights of this sampler follow the exponential law only");
+  }
+  if (!kernel_->hasPieces() && (traitsOf(estimator_).needsPieces || traitsOf(sampler_).needsPieces)) {
+    throw SceneError(SourceLocation{},
+                     "regular tracking goes from voxel to voxel, but this density has none");
+  }
+}
+
+bool FieldMedium::mayBeNegative() const {
+  return !kernel_->bounds().areProven() || traitsOf(estimator_).mayLeaveUnitInterval;
+}
+
+Rgb FieldMedium::transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const {
+  if (hasNaN(segment)) return kNaN;
+  const auto line = lineOf(segment);
+  if (!line) return Rgb(1.0f);
+  explore(*line, rng, counters);
+  return dimmed(*line, segment, rng, counters);
+}
+
+FreeFlight FieldMedium::sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
+                                         RenderCounters& counters) const {
+  if (hasNaN(segment)) return {.weight = kNaN};
+  const auto line = lineOf(segment);
+  if (!line) return {};
+  explore(*line, rng, counters);
+  // What only absorbs dims: its collisions would end paths and nothing else.
+  if (sigmaS_.isBlack()) return {false, 0, dimmed(*line, segment, rng, counters)};
+  const AnyLaw* const law = isExponential_ ? nullptr : &law_;
+  FreeFlight flight =
+      sigmaT_.isGrey()
+          ? flyOn(*line, segment, FlightQuery<1>{{sigmaT_.r}, {albedo_.average()}, {1}, law}, rng, counters)
+          : flyOn(*line, segment,
+                  FlightQuery<3>{channelsOf(sigmaT_), channelsOf(albedo_),
+                                 importanceOf(channelsOf(throughput)), law},
+                  rng, counters);
+  if (!flight.collided) return flight;
+  flight.t = std::clamp(flight.t, segment.tMin, segment.tMax);
+  flight.weight *= albedo_;
+  return flight;
+}
+
+MediumPoint FieldMedium::at(Point3f p, RenderCounters& counters) const {
+  const Vec3d local = kernel_->localFromWorld().point(Vec3d(p));
+  if (!kernel_->superVoxels().occupied().contains(local)) return {};
+  ++counters.densityLookups;
+  const float density = kernel_->density(local);
+  return {sigmaS_ * density, emission_.at(Vec3d(p), density)};
+}
+
+FlightControl FieldMedium::flightControl(const Segment& segment) const {
+  const auto line = kernel_->clip(segment);
+  if (!line) return {};
+  double depth = 0, rate = 0;
+  line->walkCells([&](double sEnter, double sExit, const SuperVoxel& bound) {
+    rate = bound.upper > 0 ? static_cast<double>(controlDensity(bound)) : 0;
+    depth += rate * (sExit - sEnter);
+    return true;
+  });
+  // Behind the last of the medium nothing collides.
+  const double slack = kEndSlack * (line->length() + line->tEntry());
+  if (segment.tMax > line->tEntry() + line->length() + slack) rate = 0;
+  return {sigmaT_ * static_cast<float>(depth), sigmaT_ * static_cast<float>(rate)};
+}
+
+EmissionSamples FieldMedium::sampleEmission(const Segment& segment, Rng& rng,
+                                            RenderCounters& counters) const {
+  EmissionSamples samples;
+  const auto line = emissionLine(segment);
+  if (!line) return samples;
+  EmissionSampler sampler(EmissionSampler::kDefensiveShare, rng);
+  // Under another law a collision is not extinction times transmittance.
+  const bool flies = emission_.addTo(sampler, *line, isExponential_);
+  if (const auto distance = sampler.distance()) {
+    ++counters.densityLookups;
+    const double t = std::clamp(line->tEntry() + distance->s, segment.tMin, segment.tMax);
+    const Rgb emission = emission_.at(pointOf(segment, t), kernel_->density(*line, distance->s));
+    const double weight = distance->tag / distance->pdf;
+    if (!emission.isBlack()) {
+      const Rgb through = transmittance({segment.o, segment.d, segment.tMin, t}, rng, counters);
+      samples.add(t, through * emission * static_cast<float>(weight));
+    }
+  }
+  if (flies) flyToEmission(samples, *line, segment, rng, counters);
+  return samples;
+}
+
+void FieldMedium::flyToEmission(EmissionSamples& samples, const ClippedLine& emissionLine,
+                                const Segment& segment, Rng& rng, RenderCounters& counters) const {
+  const auto line = kernel_->clip(segment);
+  if (!line) return;
+  const FreeFlight flight =
+      sigmaT_.isGrey() ? flyOn(*line, segment, FlightQuery<1>{.sigmaT = {sigmaT_.r}}, rng, counters)
+                       : flyOn(*line, segment,
+                               FlightQuery<3>{.sigmaT = channelsOf(sigmaT_),
+                                              .importance = importanceOf(channelsOf(emission_.sourceOf()))},
+                               rng, counters);
+  if (!flight.collided) return;
+  const double t = std::clamp(flight.t, segment.tMin, segment.tMax);
+  const double share = emission_.flightShareAt(emissionLine, flight.t - emissionLine.tEntry());
+  if (!(share > 0)) return;
+  samples.add(t, flight.weight * emission_.sourceAt(pointOf(segment, t)) * static_cast<float>(share));
+}
+
+std::unique_ptr<const EmissionVolume> FieldMedium::emissionVolume(const Bounds3f&) const {
+  return emission_.volume(kernel_->superVoxels(), kernel_->worldFromLocal());
+}
+
+Bounds3f FieldMedium::bounds() const {
+  const Bounds3d& occupied = kernel_->superVoxels().occupied();
+  if (occupied.isEmpty()) return {};
+  Bounds3f box;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3d p = kernel_->worldFromLocal().point(occupied.corner(i));
+    for (std::size_t a = 0; a < 3; ++a) {
+      const float x = static_cast<float>(p[a]);
+      box.min[a] = std::min(box.min[a], std::nextafter(x, -kInfinity));
+      box.max[a] = std::max(box.max[a], std::nextafter(x, kInfinity));
+    }
+  }
+  return box;
+}
+
+void FieldMedium::exploreBounds(const Exploration& plan, std::size_t first, std::size_t last,
+                                std::uint64_t seed, RenderCounters& counters) const {
+  const LearnedBounds* const learned = kernel_->bounds().learned();
+  if (learned == nullptr) return;
+  counters.densityLookups += pbrtmedia::exploreBounds(*learned, plan, first, last, seed,
+                                                      [&](Vec3d p) { return kernel_->uncutDensity(p); });
+}
+
+std::string FieldMedium::describe() const {
+  const SuperVoxels& cells = kernel_->superVoxels();
+  const auto& n = cells.shape().count;
+  std::ostringstream text;
+  text << kernel_->describe();
+  if (kernel_->bounds().learned() != nullptr) {
+    text << ", bounds learned";
+  } else if (!kernel_->bounds().areProven()) {
+    text << ", bounds given";
+  }
+  text << ", super-voxels " << n.x << " x " << n.y << " x " << n.z << " (" << cells.emptyCells()
+       << " empty), estimator " << nameOf(estimator_);
+  if (isAuto_) text << " (auto)";
+  if (!isExponential_) text << " (law " << nameOf(law_) << ')';
+  if (samplingPattern_ != PatternKind::Independent)
+    text << " (pattern " << kPatternNames[static_cast<std::size_t>(samplingPattern_)] << ')';
+  text << ", sampler " << nameOf(sampler_) << ", " << (sigmaT_.isGrey() ? "1 channel" : "3 channels")
+       << emission_.describe() << ", " << kernel_->bytes() + emission_.bytes() << " bytes";
+  return text.str();
+}
+
+std::optional<ClippedLine> FieldMedium::lineOf(const Segment& segment) const {
+  auto line = kernel_->clip(segment);
+  const double sigmaMax = sigmaT_.max();
+  const double column = line ? line->length() * double{kernel_->superVoxels().maximum()} : 0;
+  if (sigmaMax * column > kRefinedDepth && kernel_->bounds().areProven()) [[unlikely]]
+    line->refineAbove(kRefinedDepth / sigmaMax);
+  return line;
+}
+
+std::optional<ClippedLine> FieldMedium::emissionLine(const Segment& segment) const {
+  if (!emission_.isEmissive() || hasNaN(segment)) return std::nullopt;
+  return ClippedLine::clip(kernel_->localFromWorld(), emission_.cells(kernel_->superVoxels()), segment);
+}
+
+Rgb FieldMedium::dimmed(const ClippedLine& line, const Segment& segment, Rng& rng,
+                        RenderCounters& counters) const {
+  if (line.isRefined() && isExponential_) [[unlikely]]
+    return dimmedOrOpaque(line, segment, rng, counters);
+  return sigmaT_.isGrey() ? estimate(line, segment, Channels<1>{sigmaT_.r}, rng, counters)
+                          : estimate(line, segment, channelsOf(sigmaT_), rng, counters);
+}
+
+Rgb FieldMedium::dimmedOrOpaque(const ClippedLine& line, const Segment& segment, Rng& rng,
+                                RenderCounters& counters) const {
+  constexpr double kOpaque = 746;  // exp of less is 0
+  double column = 0;
+  auto add = [&](double sEnter, double sExit, const SuperVoxel& bound) {
+    column += bound.lower * (sExit - sEnter);
+    return !(sigmaT_.min() * column >= kOpaque);
+  };
+  kernel_->walk(line, AnyVisit(add));
+  Channels<3> clear = channelsOf(sigmaT_);
+  for (double& sigma : clear) sigma = sigma * column >= kOpaque ? 0 : sigma;
+  const Rgb through = clear == Channels<3>{} ? Rgb(1.0f) : estimate(line, segment, clear, rng, counters);
+  Rgb result;
+  for (std::size_t c = 0; c < 3; ++c) result[c] = sigmaT_[c] * column >= kOpaque ? 0 : through[c];
+  return result;
+}
+
+template <std::size_t N>
+Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT,
+                          Rng& rng, RenderCounters& counters) const {
+  if (PixelSample& pixel = rng.pixelSample(); samplingPattern_ != PatternKind::Independent &&
+                                              pixel.index < pixel.count &&
+                                              pixel.count <= std::numeric_limits<std::uint32_t>::max()) {
+    // The n-th estimates of all samples of a pixel share a pattern.
+    const SamplingPattern pattern(samplingPattern_, static_cast<std::uint32_t>(pixel.count),
+                                  hashCombine(pixel.key, pixel.estimates++));
+    SampleStream stream(rng, pattern, static_cast<std::uint32_t>(pixel.index));
+    return estimate(line, segment, sigmaT, stream, counters);
+  }
+  SampleStream stream(rng);
+  return estimate(line, segment, sigmaT, stream, counters);
+}
+
+template <std::size_t N>
+Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT,
+                          SampleStream& stream, RenderCounters& counters) const {
+  const Estimate<N> result = kernel_->estimate(line, sigmaT, estimator_, stream);
+  count(line, segment, result.tally, counters);
+  return toRgb(result.value);
+}
+
+template <std::size_t N>
+FreeFlight FieldMedium::flyOn(const ClippedLine& line, const Segment& segment, const FlightQuery<N>& query,
+                              Rng& rng, RenderCounters& counters) const {
+  const FlightSample<N> result = kernel_->fly(line, query, sampler_, rng);
+  count(line, segment, result.tally, counters);
+  const Rgb weight = toRgb(result.weight);
+  if (!result.collided) return {false, 0, weight};
+  return {true, line.tEntry() + result.s, weight};
+}
+
+void FieldMedium::explore(const ClippedLine& line, Rng& rng, RenderCounters& counters) const {
+  const LearnedBounds* const learned = kernel_->bounds().learned();
+  if (learned == nullptr || !learned->isExploring()) return;
+  const Vec3d p = line.pointAt(line.length() * rng.uniformDouble());
+  learned->probe(p, kernel_->uncutDensity(p), static_cast<double>(sigmaT_.max()) * line.length());
+  ++counters.densityLookups;
+}
+
+void FieldMedium::count(const ClippedLine& line, const Segment& segment, const LookupTally& tally,
+                        RenderCounters& counters) const {
+  tally.addTo(counters);
+  if (tally.violations == 0 || counters.violation) return;
+  const double t = line.tEntry() + tally.worstS;
+  counters.violation = BoundViolation{name(), segment.o, segment.d, t, tally.worstDensity, tally.worstBound};
+}
+
+}  // namespace pbrtmedia
