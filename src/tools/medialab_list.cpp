@@ -68,8 +68,7 @@ Json listJson(const std::string& what) {
   const auto wants = [&](const char* kind) { return what == "all" || what == kind; };
   if (wants("estimators")) {
     list["estimators"] = Json::array();
-    for (const std::string_view name : estimatorNames())
-      list["estimators"].push_back(estimatorJson(name));
+    for (const std::string_view name : estimatorNames()) list["estimators"].push_back(estimatorJson(name));
   }
   if (wants("functions")) {
     list["functions"] = Json::array();
