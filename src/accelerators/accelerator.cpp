@@ -13,15 +13,13 @@
 namespace pbrtmedia {
 namespace {
 
-/// Embree leaves out primitives beyond this without a word.
-constexpr float kLargestCoordinate = 1.8e18f;
 /// User bounds grow by this fraction of the largest coordinate: several roundings of float transforms.
 constexpr float kBoundsGrowth = 0x1p-20f;
 
 void checkExtent(const Bounds3f& b, const char* what) {
   const float largest = std::max(maxComponent(abs(b.min)), maxComponent(abs(b.max)));
   if (!b.isEmpty() && !(largest <= kLargestCoordinate)) {
-    throw std::invalid_argument(std::string(what) + ": coordinates must be finite and below 1.8e18");
+    throw std::invalid_argument(std::string(what) + ": coordinates must be finite and below 1.8e18 in size");
   }
 }
 
@@ -83,6 +81,24 @@ RTCGeometry makeStaticInstance(const GeometryRecord& record) {
   return geometry;
 }
 
+/// The largest ray that Embree can take into the space of the instance; 0: none, as it transforms in float.
+double largestRayInto(const AnimatedTransform& worldFromObject) {
+  constexpr double kLargestEntry = 1e12;  // with which a product of three stays a float
+  const Matrix4 &m = worldFromObject.start().matrix(), &inverse = worldFromObject.start().inverseMatrix();
+  double largest = double{kLargestCoordinate};
+  for (std::size_t i = 0; i < 3; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (!(std::abs(m.m[i][j]) <= kLargestEntry) || !(std::abs(inverse.m[i][j]) <= kLargestEntry)) return 0;
+      sum += std::abs(inverse.m[i][j]);
+    }
+    const double left = double{kLargestCoordinate} - std::abs(inverse.m[i][3]);
+    if (!(left > 0)) return 0;
+    if (sum > 0) largest = std::min(largest, left / sum);
+  }
+  return largest;
+}
+
 RTCGeometry makeUser(GeometryRecord& record) {
   RTCGeometry geometry = rtcNewGeometry(embreeDevice(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, 1);
@@ -113,7 +129,13 @@ GeometryRecord& Accelerator::Impl::add(const HitFilter* filter) {
 void Accelerator::Impl::attach(GeometryRecord& record) {
   if (record.object && !record.object->scene) return;                   // instance of nothing
   if (!record.object && !record.user && !record.isTriangles()) return;  // mesh without triangles
-  const bool isStaticInstance = record.object && !record.worldFromObject.isAnimated();
+  constexpr double kNoScene = 1e12;  // coordinates of no scene; a float there has steps of 65536
+  bool isStaticInstance = false;
+  if (record.object && !record.worldFromObject.isAnimated()) {
+    const double largest = largestRayInto(record.worldFromObject);
+    isStaticInstance = largest >= kNoScene;
+    if (isStaticInstance) largestRay = std::min(largestRay, largest);
+  }
   RTCGeometry geometry = isStaticInstance       ? makeStaticInstance(record)
                          : record.isTriangles() ? makeTriangles(record.triangles)
                                                 : makeUser(record);
@@ -184,7 +206,7 @@ void Accelerator::build() {
 std::optional<RayHit> Accelerator::intersect(const Ray& ray, float tMin, const Exclusions& exclusions) const {
   if (!impl_->scene || !isFinite(ray.o) || !isFinite(ray.d)) return std::nullopt;
   Query query(ray, tMin, exclusions, /*shadowRay=*/false);
-  if (!query.crossesNeighbourAtStart(*impl_)) query.run(impl_->scene);
+  if (!query.crossesNeighbourAtStart(*impl_)) query.run(*impl_);
   if (!query.best().id.isValid()) return std::nullopt;
   return query.best();
 }
@@ -193,7 +215,7 @@ bool Accelerator::occluded(const Ray& ray, float tMin, const Exclusions& exclusi
                            std::uint32_t blocker) const {
   if (!impl_->scene || !isFinite(ray.o) || !isFinite(ray.d)) return false;
   Query query(ray, tMin, exclusions, /*shadowRay=*/true, blocker);
-  if (!query.crossesNeighbourAtStart(*impl_)) query.run(impl_->scene);
+  if (!query.crossesNeighbourAtStart(*impl_)) query.run(*impl_);
   return query.best().id.isValid();
 }
 

@@ -31,9 +31,14 @@ struct GeometryRecord {
   }
 };
 
+/// Embree leaves out primitives beyond this without a word, and takes rays beyond it for none.
+constexpr float kLargestCoordinate = 1.8e18f;
+
 struct Accelerator::Impl {
   std::vector<std::unique_ptr<GeometryRecord>> records;
   Bounds3f bounds;
+  /// Rays whose origin or direction is beyond it would leave Embree's range in one of its spaces.
+  double largestRay = double{kLargestCoordinate};
   bool holdsInstances = false;
   bool isBuilt = false;
   RTCScene scene = nullptr;  ///< null: nothing to hit

@@ -31,7 +31,9 @@ Query::Query(const Ray& ray, float tMin, const Exclusions& exclusions, bool shad
   context_.query = this;
 }
 
-void Query::run(RTCScene scene) {
+void Query::run(const Accelerator::Impl& accelerator) {
+  const double largest = double{std::max(maxComponent(abs(ray_.o)), maxComponent(abs(ray_.d)))};
+  if (!(largest <= accelerator.largestRay)) return;
   RTCRayHit r{};
   r.ray.org_x = ray_.o.x;
   r.ray.org_y = ray_.o.y;
@@ -47,9 +49,9 @@ void Query::run(RTCScene scene) {
   r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   if (!(r.ray.tnear <= r.ray.tfar)) return;
   if (shadowRay_) {
-    rtcOccluded1(scene, &context_.embree, &r.ray);
+    rtcOccluded1(accelerator.scene, &context_.embree, &r.ray);
   } else {
-    rtcIntersect1(scene, &context_.embree, &r);
+    rtcIntersect1(accelerator.scene, &context_.embree, &r);
   }
 }
 
@@ -121,7 +123,7 @@ bool Query::crossesNeighbourAtStart(const Accelerator::Impl& world) {
     Query query({.o = start->inside, .d = ray_.d, .tMax = std::min(reach, ray_.tMax), .time = ray_.time}, 0,
                 onlyStart, shadowRay_, blocker_);
     query.onlyAdjacent_ = true;
-    query.run(world.scene);
+    query.run(world);
     if (!query.best_.id.isValid() || isExcluded(query.best_.id)) continue;
     best_ = query.best_;
     const Vec3d d(ray_.d), shift = Vec3d(start->inside) - Vec3d(ray_.o);
@@ -181,7 +183,7 @@ bool Query::hitInstance(const GeometryRecord& record) {
   Query inner(worldFromObject.inverse().ray(ray_), tMin_, exclusions_, shadowRay_);
   inner.animatedInstance_ = record.number;
   inner.best_ = best_;
-  inner.run(record.object->scene);
+  inner.run(*record.object);
   if (inner.best_.id == best_.id && inner.best_.t == best_.t) return false;
   best_ = inner.best_;
   return true;

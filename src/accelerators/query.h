@@ -18,8 +18,9 @@ class Query {
   Query(const Query&) = delete;
   Query& operator=(const Query&) = delete;
 
-  /// Traverses `scene`. Afterwards `best()` is the hit, if valid; shadow rays stop at any hit.
-  void run(RTCScene scene);
+  /// Traverses what `accelerator` holds. Afterwards `best()` is the hit, if valid; shadow rays stop at any
+  /// hit. A ray beyond the range of Embree, which ends the program at one, meets nothing.
+  void run(const Accelerator::Impl& accelerator);
   const RayHit& best() const { return best_; }
 
   /// A ray that starts at a rounded point of an excluded triangle may start behind a neighbour that it should

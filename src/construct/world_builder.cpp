@@ -208,9 +208,11 @@ void WorldBuilder::placeShapes(SceneBuilder& builder) {
     std::optional<Primitive> primitive = buildPrimitive(i, builder);
     if (!primitive || primitive->isInvisible()) continue;
     if (shape.ctm->isAnimated()) {
-      place(builder, addMoving(builder, *shape.ctm, *std::move(primitive)), TransformPair{});
+      builtAt(shape.location, contextOf(shape), [&] {
+        place(builder, addMoving(builder, *shape.ctm, *std::move(primitive)), TransformPair{});
+      });
     } else {
-      builder.addPrimitive(*std::move(primitive));
+      builtAt(shape.location, contextOf(shape), [&] { builder.addPrimitive(*std::move(primitive)); });
     }
   }
 }
@@ -231,12 +233,14 @@ void WorldBuilder::placeObjects(SceneBuilder& builder) {
       if (!primitive || primitive->isInvisible()) continue;
       const TransformPair& ctm = *scene_.shapes[shape].ctm;
       if (ctm.isAnimated()) {
-        movingShapes_[i].push_back(addMoving(builder, ctm, *std::move(primitive)));
+        movingShapes_[i].push_back(builtAt(scene_.shapes[shape].location, contextOf(scene_.shapes[shape]),
+                                           [&] { return addMoving(builder, ctm, *std::move(primitive)); }));
       } else {
         primitives.push_back(*std::move(primitive));
       }
     }
-    objectNumber_[i] = builder.addObject(std::move(primitives));
+    objectNumber_[i] = builtAt(scene_.objects[i].location, "ObjectBegin \"" + scene_.objects[i].name + '"',
+                               [&] { return builder.addObject(std::move(primitives)); });
   }
   if (left > 0) report_.push_back(std::to_string(left) + " objects are never placed: left out");
   for (const InstanceDescription& instance : scene_.instances) {
@@ -271,10 +275,13 @@ void WorldBuilder::placeInstance(SceneBuilder& builder, const InstanceDescriptio
     return;
   }
   leaveIfStopped();
-  builder.addInstance(
-      objectNumber_[instance.object],
-      AnimatedTransform(place.start, scene_.transformStartTime, place.end, scene_.transformEndTime));
-  for (const MovingShape& shape : movingShapes_[instance.object]) this->place(builder, shape, place);
+  const AnimatedTransform worldFromObject(place.start, scene_.transformStartTime, place.end,
+                                          scene_.transformEndTime);
+  builtAt(instance.location, "ObjectInstance",
+          [&] { builder.addInstance(objectNumber_[instance.object], worldFromObject); });
+  builtAt(instance.location, "ObjectInstance", [&] {
+    for (const MovingShape& shape : movingShapes_[instance.object]) this->place(builder, shape, place);
+  });
   for (const std::uint32_t inner : scene_.objects[instance.object].instances) {
     placeInstance(builder, scene_.instances[inner], place);
   }

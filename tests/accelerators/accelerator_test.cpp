@@ -145,6 +145,19 @@ TEST(Accelerator, MissesWithRaysThatAreNotNumbers) {
   EXPECT_TRUE(a.intersect(makeRay({0, 0, 0}, {0, 0, 1}), 0, {}));
 }
 
+TEST(Accelerator, MissesWithRaysFromBeyondItsRange) {
+  const Mesh mesh = test::sphereMesh(1);
+  const Accelerator a = builtFrom(mesh);
+  for (const float far : {1.9e18f, 1e30f, 3.4e38f}) {
+    const Ray from = makeRay({far, 0, 0}, {-1, 0, 0}), along = makeRay({-2, 0, 0}, {far, 0, 0});
+    for (const Ray& ray : {from, along}) {
+      EXPECT_FALSE(a.intersect(ray, 0, {}));
+      EXPECT_FALSE(a.occluded(ray, 0, {}));
+    }
+  }
+  EXPECT_TRUE(a.intersect(makeRay({-1e3f, 0, 0}, {1e3f, 0, 0}), 0, {}));
+}
+
 TEST(Accelerator, RejectsCoordinatesItCannotHold) {
   Mesh mesh = triangleAt(1);
   mesh.positions[1].x = 1e19f;

@@ -58,6 +58,25 @@ TEST(Instances, StaticOnesEqualTransformedCopies) {
   }
 }
 
+TEST(Instances, OfAnySizeEqualTransformedCopies) {
+  const Mesh mesh = test::sphereMesh(2);
+  for (const double scale : {1e-12, 1e-7, 1e-5, 1e5}) {
+    SCOPED_TRACE(scale);
+    // The object is as much larger as the placement makes it smaller.
+    const Mesh resized = mesh.transformed(Transform::scale(1 / scale, 1 / scale, 1 / scale));
+    const Accelerator object = builtFrom(resized);
+    Accelerator a;
+    a.addInstance(object, AnimatedTransform(Transform::scale(scale, scale, scale)));
+    a.build();
+    expectSameHits(a, builtFrom(mesh), 0, 0);
+    // What Embree cannot take meets nothing, in whichever space.
+    for (const float far : {1e13f, 1e18f, 1e30f}) {
+      EXPECT_FALSE(a.intersect(makeRay({far, far, 0}, {-1, 0, 0}), 0, {})) << scale << ' ' << far;
+      EXPECT_FALSE(a.occluded(makeRay({0, far, 0}, {far, 0, 0}), 0, {})) << scale << ' ' << far;
+    }
+  }
+}
+
 TEST(Instances, AnimatedOnesEqualCopiesAtEveryTime) {
   const Mesh mesh = test::sphereMesh(2);
   const Accelerator object = builtFrom(mesh);

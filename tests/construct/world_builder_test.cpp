@@ -199,5 +199,25 @@ TEST(ConstructWorld, SurfacesThatChangeNothingAreLeftOut) {
   EXPECT_TRUE(surfaces(a) == surfaces(with("")));
 }
 
+TEST(WorldBuilder, WhatLiesBeyondAllCoordinatesIsToldWhereItStands) {
+  const std::string mesh =
+      "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 ] \"point P\" [ 0 0 0 1 0 0 0 1e17 0 ]";
+  struct Case {
+    std::string world, place;
+  };
+  const Case cases[] = {
+      {"Shape \"sphere\" \"float radius\" 1e19", "t.pbrt:2:1"},
+      {"Scale 1e3 1e3 1e3\n" + mesh, "t.pbrt:3:1"},
+      {"ActiveTransform EndTime Scale 1e3 1e3 1e3\n" + mesh, "t.pbrt:3:1"},
+      {"ObjectBegin \"o\"\nShape \"sphere\" \"float radius\" 1e19\nObjectEnd\nObjectInstance \"o\"",
+       "t.pbrt:2:1"},
+      {"ObjectBegin \"o\"\n" + mesh + "\nObjectEnd\nScale 1e3 1e3 1e3\nObjectInstance \"o\"", "t.pbrt:6:1"}};
+  for (const Case& c : cases) {
+    const Attempt a = attemptWorld(c.world);
+    ASSERT_TRUE(a.failsWith("coordinates must be finite and below 1.8e18")) << c.world << a.messages();
+    EXPECT_EQ(a.find(Severity::Error, "coordinates")->location.toString(), c.place) << a.messages();
+  }
+}
+
 }  // namespace
 }  // namespace pbrtmedia::test
