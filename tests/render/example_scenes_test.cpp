@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fields/exploration.h"
 #include "fields/learned_bounds.h"
 #include "media/medium.h"
 #include "scene/param_reader.h"
@@ -138,7 +139,8 @@ TEST(DocumentedExample, ShowsAShapeAsItStands) {
     RenderCounters counters;
     for (Medium* medium : scene.scene->learners()) {
       LearnedBounds& bounds = *medium->learnedBounds();
-      medium->exploreBounds(0, bounds.inForce().cellCount(), 1, counters);
+      const Exploration plan = planExploration(bounds.inForce().shape(), bounds.warmUpPasses(), 1 << 22);
+      medium->exploreBounds(plan, 0, plan.blockCount(), 1, counters);
       bounds.publish();
     }
     RunningStats luminances;  // of pixels
