@@ -65,6 +65,14 @@ constexpr std::string_view kTooCold =
     "no temperature is above 100 K, below which all is dark; is a \"float temperaturescale\" missing?";
 constexpr std::string_view kNoFactor = "all its factors are 0";
 
+/// What maps temperatures means nothing without them.
+void refuseTemperatureMap(ParamReader& in, std::string_view needed) {
+  for (const std::string_view name : {"temperaturescale", "temperatureoffset"}) {
+    if (in.has(ParamKind::Float, name))
+      in.error(ParamKind::Float, name, "needs " + std::string(needed) + ", which is not given");
+  }
+}
+
 TemperatureMap readTemperatureMap(ParamReader& in) {
   TemperatureMap map;
   map.scale = in.findFloat("temperaturescale", map.scale, Range::nonNegative());
@@ -143,6 +151,8 @@ EmissionPlan readGridEmission(const MediumInput& input, const GridField::Params&
         return toldIfBlack(makeBlackbodyPattern(taken, map, place), kTooCold, named, context, building);
       };
     }
+  } else {
+    refuseTemperatureMap(in, "\"float temperature\"");
   }
   if (in.floats("Lescale").size() > 1) {
     if (std::optional<GridField::Params> taken = takeGrid(in, "Lescale", grid)) {
@@ -182,6 +192,8 @@ EmissionPlan readNanoVdbEmission(const MediumInput& input, const std::filesystem
     temperatures = gridNamed("temperaturegrid", kTooCold, [map](const auto& grid, const Transform& place) {
       return makeBlackbodyPattern(grid, map, place);
     });
+  } else {
+    refuseTemperatureMap(in, "\"string temperaturegrid\"");
   }
   EmissionPlan factors = gridNamed("Legrid", kNoFactor, [](const auto& grid, const Transform& place) {
     return makeScalePattern(grid, place);

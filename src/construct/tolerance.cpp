@@ -94,7 +94,8 @@ Rgb nonNegative(ParamReader& in, std::string_view name, Rgb colour) {
     in.diagnostics().warning(in.locationOf(ParamKind::Spectrum, name),
                              in.context() + ": parameter \"" + std::string(name) + "\": " + text.str());
   } else {
-    text << "; PBRT-v3 takes them as they are, so that light grows on its way";
+    // PBRT-v3's media do not emit.
+    if (name != "Le") text << "; PBRT-v3 takes them as they are, so that light grows on its way";
     tolerate(in, ParamKind::Spectrum, name, text.str());
   }
   return colour.nonNegative();

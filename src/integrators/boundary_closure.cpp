@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/boundary_closure.h"
 
+#include <cmath>
 #include <map>
 #include <span>
 #include <utility>
@@ -53,6 +54,29 @@ Extent sampledExtent(const Shape& shape) {
     extent.volume += 2 * shape.area(0) / kSamples * dot(Vec3d(s.p) - Vec3d(centre), Vec3d(s.n));
   }
   return extent;
+}
+
+/// Whether shapes that may close one another point to where they come from, seen from the middle of all.
+bool facesMiddle(const std::vector<std::pair<const Primitive*, BoundaryFault>>& parts) {
+  constexpr int kSamples = 16;
+  Bounds3f all;
+  for (const auto& part : parts) all.expand(part.first->shape->bounds());
+  const Point3f middle = all.centre();
+  double volume = 0, most = 0;
+  for (const auto& part : parts) {
+    const Shape& shape = *part.first->shape;
+    const int samples = shape.primitiveCount() > 1 ? 1 : kSamples;  // anywhere on a triangle it is the same
+    for (std::uint32_t i = 0; i < shape.primitiveCount(); ++i) {
+      for (int k = 0; k < samples; ++k) {
+        const float u = (static_cast<float>(k) + 0.5f) / static_cast<float>(samples);
+        const ShapeSample s = shape.sample(i, Point2f(u, k % 2 == 0 ? 0.25f : 0.75f));
+        const double share = shape.area(i) / samples * dot(Vec3d(s.p) - Vec3d(middle), Vec3d(s.n));
+        volume += share;
+        most += std::abs(share);
+      }
+    }
+  }
+  return volume < -0.5 * most;
 }
 
 /// Nothing when closed and facing outward.
@@ -108,7 +132,11 @@ class BoundaryClosure::Group {
       const auto fault = pbrtmedia::faultOf(all, all.isMesh && all.edges.isClosed());
       if (!fault) continue;
       lose(media.first);
-      if (!all.isMesh && patchwork.parts.size() > 1) continue;  // curved shapes: they may close
+      if (!all.isMesh && patchwork.parts.size() > 1) {
+        if (!facesMiddle(patchwork.parts)) continue;  // curved shapes: they may close
+        for (const auto& part : patchwork.parts) faults_[part.first] = BoundaryFault::FacesInward;
+        continue;
+      }
       for (const auto& [part, own] : patchwork.parts) {
         faults_[part] = *fault == BoundaryFault::Open ? own : *fault;
       }

@@ -32,7 +32,8 @@ class BoundaryClosure {
   bool isConfined(const Medium* medium) const { return confined_.count(medium) > 0; }
   bool confinesNothing() const { return confined_.empty(); }
   bool hasFaults() const { return !faults_.empty(); }
-  /// Nothing for boundaries without fault, and where several curved shapes may close one another.
+  /// Nothing for boundaries without fault, and where several curved shapes may close one another, but
+  /// FacesInward where all of those point to their middle.
   std::optional<BoundaryFault> faultOf(const Primitive& boundary) const;
 
  private:

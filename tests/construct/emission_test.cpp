@@ -62,7 +62,13 @@ TEST(ConstructEmission, GridsOfFactorsAndTemperatures) {
 }
 
 TEST(ConstructEmission, WrongInputIsToldWhereItStands) {
-  EXPECT_TRUE(with(kHomogeneous + "\"rgb Le\" [ 1 -2 3 ]").warns("negative channels count as 0"));
+  const Attempt negative = with(kHomogeneous + "\"rgb Le\" [ 1 -2 3 ]");
+  EXPECT_TRUE(negative.warns("negative channels count as 0"));
+  EXPECT_FALSE(negative.warns("PBRT-v3")) << "whose media do not emit";
+  for (const std::string map : {"temperaturescale", "temperatureoffset"}) {
+    EXPECT_TRUE(with(kGrid + "\"rgb Le\" [ 1 1 1 ] \"float " + map + "\" 2")
+                    .failsWith('"' + map + "\": needs \"float temperature\", which is not given"));
+  }
   EXPECT_TRUE(with(kHomogeneous + "\"rgb Le\" [ 1 1 1 ] \"float Lescale\" -1").failsWith("negative"));
   EXPECT_TRUE(with(kHomogeneous + "\"rgb Le\" [ 1 1 1 ] \"float Lescale\" [ 1 2 ]")
                   .failsWith("found 2 values, expected 1"));

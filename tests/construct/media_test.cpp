@@ -22,6 +22,23 @@ Attempt under(const std::string& transformations) {
                       "\nIdentity MediumInterface \"m\" \"\" Material \"\" Shape \"sphere\"");
 }
 
+TEST(ConstructMedium, SamplesBelowZeroAreZeroBeforeTheyAreInterpolated) {
+  const auto densityAt = [](const std::string& samples, Point3f p) {
+    const Attempt a = with(
+        "\"string type\" \"heterogeneous\" \"integer nx\" 2 \"integer ny\" 1 \"integer nz\" 1 "
+        "\"string border\" \"clamp\" \"rgb sigma_s\" [ 1 1 1 ] \"float density\" " +
+        samples);
+    RenderCounters counters;
+    return a.made->scene->media()[0]->at(p, counters).sigmaS.r;
+  };
+  // Sample centres are at x = 1/4 and 3/4. Cut afterwards, as in PBRT-v3, it were .25 in the middle.
+  EXPECT_EQ(densityAt("[ -.5 1 ]", {.5f, .5f, .5f}), .5f);
+  for (int i = 0; i <= 16; ++i) {
+    const Point3f p{static_cast<float>(i) / 16, .5f, .25f};
+    EXPECT_EQ(densityAt("[ -.5 1 ]", p), densityAt("[ 0 1 ]", p)) << p;
+  }
+}
+
 TEST(ConstructMedium, EveryParameterHasItsEffect) {
   std::vector<Effect> effects;
   for (const std::string& type : {kHomogeneous, kGrid}) {

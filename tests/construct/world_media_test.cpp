@@ -58,6 +58,11 @@ TEST(MediumWarnings, NameBoundariesThatFaceInward) {
                 "\"m\" it faces inward", "t.pbrt:3:2");
   expectSilence(kFog + kInside + kNone + box());
   expectSilence(kFog + kInside + kNone + "ReverseOrientation Scale -1 1 1 Shape \"sphere\"");
+  const std::string can =
+      "Shape \"cylinder\" Shape \"disk\" \"float height\" 1 ReverseOrientation "
+      "Shape \"disk\" \"float height\" -1";
+  expectSilence(kFog + kInside + kNone + can);
+  expectWarning(kFog + kInside + kNone + "ReverseOrientation\n" + can, "\"m\" it faces inward", "t.pbrt:3:1");
   // Around the camera: the region of the normals is the one that is enclosed.
   expectSilence(kFog + " MediumInterface \"\" \"m\" " + kNone +
                 "ReverseOrientation Shape \"sphere\" \"float radius\" 99 MediumInterface \"\" \"\"");

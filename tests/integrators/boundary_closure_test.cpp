@@ -8,6 +8,8 @@
 #include "integrators/edge_balance.h"
 #include "integrators/media_faults.h"
 #include "scene_kit.h"
+#include "shapes/cylinder.h"
+#include "shapes/disk.h"
 #include "shapes/quadric.h"
 
 namespace pbrtmedia {
@@ -89,6 +91,24 @@ TEST(BoundaryClosure, TellsWhatIsWrongWithOthers) {
               return five;
             }),
             BoundaryFault::Open);
+}
+
+TEST(BoundaryClosure, TellsWhereSeveralCurvedShapesFaceInward) {
+  // A can: a cylinder between two disks, far from the origin.
+  const auto fault = [](bool side, bool bottom, bool top) {
+    SceneKit kit;
+    const auto place = [&](bool reverse) {
+      return ShapePlacement{Transform::translate({100, 50, -30}) * Transform::scale(2, 1, 1), reverse};
+    };
+    const std::vector<const Shape*> can{
+        kit.builder.own(std::make_unique<Cylinder>(Cylinder::Params{}, place(side))),
+        kit.builder.own(std::make_unique<Disk>(Disk::Params{.height = -1}, place(bottom))),
+        kit.builder.own(std::make_unique<Disk>(Disk::Params{.height = 1}, place(top)))};
+    return judge(kit, can).fault;
+  };
+  EXPECT_EQ(fault(false, true, false), std::nullopt);
+  EXPECT_EQ(fault(true, false, true), BoundaryFault::FacesInward);
+  EXPECT_EQ(fault(false, false, false), std::nullopt) << "one that is wrong is not told from what is meant";
 }
 
 TEST(BoundaryClosure, TakesAlphaAsHoles) {
