@@ -38,10 +38,4 @@ double CanonicalLine::upperIntegral() const {
   return sum;
 }
 
-double CanonicalLine::lowerIntegral() const {
-  double sum = 0;
-  for (const Interval& i : intervals_) sum += (i.sExit - i.sEnter) * i.bound.lower;
-  return sum;
-}
-
 }  // namespace pbrtmedia

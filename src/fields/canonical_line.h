@@ -72,9 +72,8 @@ class CanonicalLine {
   std::span<const Interval> intervals() const { return intervals_; }
   /// Exact integral of the density over the segment.
   double integral() const { return setup_.scale * function_->integral() / function_->width() * length(); }
-  /// Integrals of the bounds over the segment.
+  /// Integral of the upper bounds over the segment.
   double upperIntegral() const;
-  double lowerIntegral() const;
   /// Appends the s of every later look-up to `points`; null: no longer.
   void record(std::vector<double>* points) { record_ = points; }
 

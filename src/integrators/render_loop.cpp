@@ -176,7 +176,7 @@ class RenderLoop {
                                bounds.params().warmUpLookups.value_or(warmUpBudget()));
       };
       const Exploration plan = planned(record.warmUpPasses);
-      record.warmUpIsLimited = planned(plan.passes + 1).passes == plan.passes;
+      record.warmUpIsLimited = plan.blockEdge > 1 || planned(plan.passes + 1).passes == plan.passes;
       record.warmUpPasses = plan.passes;
       record.warmUpBlockEdge = plan.blockEdge;
       if (plan.passes == 0) continue;

@@ -68,7 +68,7 @@ struct LearningRecord {
   bool restored = false;                 ///< from the bounds of another render
   int warmUpPasses = 0;                  ///< before the first sample
   std::int64_t warmUpBlockEdge = 1;      ///< Exploration::blockEdge
-  bool warmUpIsLimited = false;          ///< look-ups did not suffice for one pass more
+  bool warmUpIsLimited = false;          ///< to fewer passes, or coarser ones, by look-ups
   std::uint64_t warmUpLookups = 0;       ///< part of RenderCounters::densityLookups
   LearningProgress warmUp{};             ///< after them
   std::vector<LearningProgress> passes;  ///< of samples, after each publication

@@ -32,7 +32,9 @@ TEST_P(EveryLine, BoundsHoldMeansAreExactAndIntervalsJoin) {
     EXPECT_EQ(end, 3);
     EXPECT_NEAR(integral / line.integral(), 1, 1e-13);
     EXPECT_GE(line.upperIntegral(), line.integral() * (1 - 1e-13));
-    EXPECT_LE(line.lowerIntegral(), line.integral() * (1 + 1e-13));
+    double lower = 0;
+    for (const CanonicalLine::Interval& i : line.intervals()) lower += (i.sExit - i.sEnter) * i.bound.lower;
+    EXPECT_LE(lower, line.integral() * (1 + 1e-13));
   }
 }
 
