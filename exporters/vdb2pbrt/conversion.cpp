@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/files.h"
+#include "base/writable.h"
 #include "vdb2pbrt/look.h"
 #include "vdb2pbrt/pbrt_include.h"
 #include "vdb2pbrt/vdb_file.h"
@@ -39,7 +40,7 @@ void checkNames(const std::filesystem::path& output, const std::filesystem::path
     throw std::runtime_error("the output is a .pbrt include (the .nvdb file gets its name); found \"" +
                              output.string() + '"');
   }
-  if (scene.empty()) return;
+  if (scene.empty()) return checkWritable(output);
   if (scene.extension() != ".pbrt") {
     throw std::runtime_error("--scene: expected a name that ends with .pbrt, found \"" + scene.string() +
                              '"');
@@ -49,6 +50,8 @@ void checkNames(const std::filesystem::path& output, const std::filesystem::path
     throw std::runtime_error("--scene and the include are both \"" + output.string() +
                              "\"; another name for one of them");
   }
+  checkWritable(output);
+  checkWritable(scene);
 }
 
 std::vector<IncludeGrid> includeGrids(const Volume& volume, const std::vector<std::string>& selectors,

@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "base/files.h"
 #include "vdb2pbrt/vdb_density_grid.h"
 
 namespace pbrtmedia {
@@ -115,7 +116,7 @@ struct VdbFile::Archive : io::Archive {
     if (buffer.open(path, std::ios::in | std::ios::binary) == nullptr || std::filesystem::is_directory(path))
       throw std::runtime_error("it cannot be opened");
     size = std::filesystem::file_size(path);
-    checkHeader();
+    checkHeader(path);
     stream.exceptions(std::ios::failbit | std::ios::badbit);
     io::setStreamMetadataPtr(stream, metadata, /*transfer=*/false);
     readHeader(stream);
@@ -127,12 +128,15 @@ struct VdbFile::Archive : io::Archive {
     if (const auto given = ofFile.getMetadata<openvdb::StringMetadata>("creator")) creator = given->value();
   }
 
-  void checkHeader() {
+  void checkHeader(const std::filesystem::path& path) {
     std::uint64_t magic = 0;
     std::uint32_t fileVersion = 0;
     stream.read(reinterpret_cast<char*>(&magic), sizeof magic);
     stream.read(reinterpret_cast<char*>(&fileVersion), sizeof fileVersion);
     if (magic != kMagic) {
+      constexpr std::uint64_t kMostText = 1024;
+      if (size <= kMostText)
+        static_cast<void>(FileBytes::open(path));  // throws where it is a Git LFS pointer
       throw std::runtime_error(
           magic == 0x304244566f6e614e || magic == 0x324244566f6e614e
               ? "this is a NanoVDB file already; name it in MakeNamedMedium as it is (--info lists its grids)"

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <stdexcept>
 #include <system_error>
 
 namespace pbrtmedia {
@@ -35,6 +36,11 @@ std::string unwritableReason(const std::filesystem::path& path) {
   ::close(file);
   ::unlink(probe.c_str());
   return {};
+}
+
+void checkWritable(const std::filesystem::path& path) {
+  const std::string reason = unwritableReason(path);
+  if (!reason.empty()) throw std::runtime_error("cannot write \"" + path.string() + "\": " + reason);
 }
 
 }  // namespace pbrtmedia

@@ -11,4 +11,7 @@ namespace pbrtmedia {
 /// behind and an existing file is not touched, so hours of work can be preceded by the question.
 std::string unwritableReason(const std::filesystem::path& path);
 
+/// Throws std::runtime_error that names file and reason where there is one.
+void checkWritable(const std::filesystem::path& path);
+
 }  // namespace pbrtmedia

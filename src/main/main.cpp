@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     try {
       return runPbrt(*outcome.options);
     } catch (const SceneError& e) {  // shown with its excerpt, as those that were collected
+      if (e.location().file == nullptr) throw;
       Diagnostics diagnostics;
       diagnostics.add(e);
       std::cerr << diagnostics.format();

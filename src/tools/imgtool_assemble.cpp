@@ -80,6 +80,12 @@ Assembly assembleTiles(const std::vector<NamedImage>& tiles) {
       return other == tile.image.metadata.end() || other->second != entry.second;
     });
   }
+  // Where one tile lacks extinction, so does the picture.
+  const auto isRising = [](const NamedImage& tile) {
+    const auto state = tile.image.metadata.find("boundsState");
+    return state != tile.image.metadata.end() && state->second == "rising";
+  };
+  if (std::any_of(tiles.begin(), tiles.end(), isRising)) result.image.metadata["boundsState"] = "rising";
   std::vector<const Image*> images;
   for (const NamedImage& tile : tiles) images.push_back(&tile.image);
   for (const char* key : {"command", "version"}) {

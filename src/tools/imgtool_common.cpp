@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/files.h"
+#include "base/writable.h"
 
 namespace pbrtmedia {
 namespace {
@@ -46,8 +47,9 @@ std::string eachOf(const std::vector<const Image*>& images, const std::string& k
 }
 
 void requireWritable(const std::filesystem::path& path) {
-  if (isWritableImageName(path)) return;
-  throw std::runtime_error(path.string() + ": unknown image extension; known: .exr, .pfm, .png, .tga");
+  if (!isWritableImageName(path))
+    throw std::runtime_error(path.string() + ": unknown image extension; known: .exr, .pfm, .png, .tga");
+  checkWritable(path);
 }
 
 std::string toString(const Bounds2i& b) {

@@ -28,7 +28,7 @@ LoadedImage loadLinear(const std::filesystem::path& path);
 /// apart again. Empty when none has it.
 std::string eachOf(const std::vector<const Image*>& images, const std::string& key);
 
-/// Throws std::runtime_error for a name that no image can be written under, before any work is done.
+/// Throws std::runtime_error for a name or a place that no image can be written to, before any work is done.
 void requireWritable(const std::filesystem::path& path);
 
 /// "(x0, y0) - (x1, y1)", max exclusive.

@@ -131,13 +131,11 @@ void addEstimate(CLI::App& app, EstimateOptions& o, const std::string& command, 
 void addHeatmap(CLI::App& app, HeatmapOptions& o, const std::string& command, Run& run) {
   CLI::App* c = app.add_subcommand("heatmap", "Map variance and cost over transmittance and control");
   c->footer(
-      "Transmittance, under the law, runs from 0.99 at the left to 0.01 at the right, depth / depth of the\n"
-      "control from 0.01 at the bottom to the function's largest at the top. With --outfile P writes P.csv "
-      "(or P.json), "
-      "P.exr,\n"
-      "P-variance.png, P-variance-lookups.png and P-variance-seconds.png. The best is chosen among the "
-      "unbiased\n"
-      "estimators, which must serve one law; all: those of the exponential one, unless --law tells another.");
+      "Transmittance, under the law, runs from 0.99 at the left to 0.01 at the right, depth / depth of\n"
+      "the control from 0.01 at the bottom to the function's largest at the top. With --outfile P writes\n"
+      "P.csv (or P.json), P.exr, P-variance.png, P-variance-lookups.png and P-variance-seconds.png. The\n"
+      "best is chosen among the unbiased estimators, which must serve one law; all: those of the\n"
+      "exponential one, unless --law tells another.");
   addLabOptions(c, o.lab, command);
   addTableOptions(c, o.lab);
   addSelection(c, o.selection);
@@ -194,12 +192,11 @@ void addProfile(CLI::App& app, ProfileOptions& o, const std::string& command, Ru
 void addStress(CLI::App& app, StressOptions& o, const std::string& command, Run& run) {
   CLI::App* c = app.add_subcommand("stress", "Try estimators on stiff and extreme lines");
   c->footer(
-      "Verdicts: pass; expected (what the traits predict cannot work); undecided (too few trials for so "
-      "rare\n"
-      "events); skipped; fail. Every cell runs in a process of its own with a limit on processor time. Exit\n"
-      "status 1 when any verdict is fail, or missing as the run was stopped. Seconds are those of all trials "
-      "of\n"
-      "a cell. The whole table: medialab stress -o stress.csv, some five minutes on two processors.");
+      "Verdicts: pass; expected (what the traits predict cannot work); undecided (too few trials for\n"
+      "so rare events); skipped; fail. Every cell runs in a process of its own with a limit on processor\n"
+      "time. Exit status 1 when any verdict is fail, or missing as the run was stopped. Seconds are those\n"
+      "of all trials of a cell. The whole table: medialab stress -o stress.csv, some five minutes on two\n"
+      "processors.");
   addLabOptions(c, o.lab, command);
   addTableOptions(c, o.lab);
   addSelection(c, o.selection);
@@ -213,9 +210,8 @@ void addStress(CLI::App& app, StressOptions& o, const std::string& command, Run&
 void addPrecision(CLI::App& app, LabOptions& o, const std::string& command, Run& run) {
   CLI::App* c = app.add_subcommand("precision", "Compare float with double where it matters");
   c->footer(
-      "Runs ratio tracking, ray marching and 1 - T with positions, weights and sums in float and in double "
-      "on\n"
-      "the same random numbers.");
+      "Runs ratio tracking, ray marching and 1 - T with positions, weights and sums in float and in\n"
+      "double on the same random numbers.");
   addLabOptions(c, o, command);
   addTableOptions(c, o);
   c->callback([&o, &run] { run = [&o] { return runPrecision(o); }; });

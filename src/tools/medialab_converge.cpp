@@ -133,7 +133,7 @@ LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
 }
 
 int runConverge(const ConvergeOptions& options) {
-  tableFormat(options.lab);
+  checkOutput(options.lab);
   const ThreadLimit limit(options.lab.threads);
   const StopSignal stop;
   const LabTable table = convergeTable(options, stop);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
+#include "base/writable.h"
 #include "tools/medialab_estimate.h"
 
 namespace pbrtmedia {
@@ -262,9 +263,10 @@ std::string docsPage(const DocsOptions& o, const StopSignal& stop) {
 
 int runDocs(const DocsOptions& options) {
   const std::string& name = options.lab.outfile;
-  if (!name.empty() && !name.ends_with(".md")) {
+  if (!name.empty() && extensionOf(name) != ".md") {
     throw std::runtime_error(name + ": unknown extension; the page is Markdown: .md");
   }
+  if (!name.empty()) checkWritable(name);
   const ThreadLimit limit(options.lab.threads);
   const StopSignal stop;
   const std::string page = docsPage(options, stop);

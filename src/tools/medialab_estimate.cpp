@@ -90,7 +90,7 @@ LabTable estimateTable(EstimateOptions o, const StopSignal& stop) {
 }
 
 int runEstimate(const EstimateOptions& options) {
-  tableFormat(options.lab);
+  checkOutput(options.lab);
   const ThreadLimit limit(options.lab.threads);
   const StopSignal stop;
   const LabTable table = estimateTable(options, stop);

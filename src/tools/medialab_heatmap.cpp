@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
+#include "base/writable.h"
 #include "image/image.h"
 #include "tools/medialab_heatmap_picture.h"
 
@@ -225,12 +226,15 @@ Heatmap measureHeatmap(const HeatmapOptions& o, std::vector<LabTable::Skipped>& 
 int runHeatmap(const HeatmapOptions& o) {
   LabOptions lab = o.lab;
   std::string prefix = o.lab.outfile;
-  if (const std::filesystem::path name = prefix; name.extension() == ".csv" || name.extension() == ".json") {
+  if (const std::filesystem::path name = prefix;
+      extensionOf(name) == ".csv" || extensionOf(name) == ".json") {
     lab.format = tableFormat(o.lab);
     prefix = std::filesystem::path(name).replace_extension().string();
   }
   lab.format = lab.format.value_or(TableFormat::Csv);
   if (!prefix.empty()) lab.outfile = prefix + (lab.format == TableFormat::Csv ? ".csv" : ".json");
+  if (!prefix.empty()) checkWritable(prefix + "-variance-lookups.png");  // the longest name of all
+  checkOutput(lab);
   const ThreadLimit limit(o.lab.threads);
   const StopSignal stop;
   std::vector<LabTable::Skipped> skipped;

@@ -136,6 +136,7 @@ LabTable precisionTable(const LabOptions& o) {
 }
 
 int runPrecision(const LabOptions& options) {
+  checkOutput(options);
   writeTable(precisionTable(options), options);
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "base/writable.h"
 #include "image/image.h"
 #include "tools/medialab_canvas.h"
 
@@ -143,10 +144,11 @@ Image plot(const Profile& profile) {
 }  // namespace
 
 int runProfile(const ProfileOptions& o) {
-  tableFormat(o.lab);
+  checkOutput(o.lab);
   if (!o.picture.empty() && !isWritableImageName(o.picture)) {
     throw std::runtime_error(o.picture + ": unknown image extension; known: .exr, .pfm, .png, .tga");
   }
+  if (!o.picture.empty()) checkWritable(o.picture);
   const CanonicalFunction function = selectFunctions({o.function}).front();
   LabTable table = emptyTable(o);
   const Profile profile = measure(o, function, table);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "base/files.h"
+#include "base/writable.h"
 
 namespace pbrtmedia {
 namespace {
@@ -112,8 +114,20 @@ void writeTable(const LabTable& table, const LabOptions& options) {
   writeOutput(options.outfile, [&](std::ostream& out) { table.write(out, tableFormat(options)); });
 }
 
+std::string extensionOf(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+void checkOutput(const LabOptions& options) {
+  tableFormat(options);
+  if (!options.outfile.empty()) checkWritable(options.outfile);
+}
+
 TableFormat tableFormat(const LabOptions& options) {
-  const std::string extension = std::filesystem::path(options.outfile).extension().string();
+  const std::string extension = extensionOf(options.outfile);
   const bool isCsv = extension == ".csv", isJson = extension == ".json";
   if (options.format) {
     const bool isOther = *options.format == TableFormat::Csv ? isJson : isCsv;

@@ -52,7 +52,11 @@ class LabProgress {
 void writeOutput(const std::string& outfile, const std::function<void(std::ostream&)>& write);
 void writeTable(const LabTable& table, const LabOptions& options);
 /// The format of the options' file: what was asked for, or what its name says. Throws std::runtime_error when
-/// the name says neither .csv nor .json, or the other one. To be asked before anything is measured.
+/// the name says neither .csv nor .json, or the other one; capital letters are as good as small ones.
 TableFormat tableFormat(const LabOptions& options);
+/// Before anything is measured: throws std::runtime_error where the table could not be written in the end.
+void checkOutput(const LabOptions& options);
+/// ".csv" of "A.CSV"; "" without one.
+std::string extensionOf(const std::filesystem::path& file);
 
 }  // namespace pbrtmedia

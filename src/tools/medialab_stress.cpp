@@ -179,7 +179,7 @@ LabTable stressTable(const StressOptions& o, const StopSignal& stop) {
 }
 
 int runStress(const StressOptions& options) {
-  tableFormat(options.lab);
+  checkOutput(options.lab);
   const ThreadLimit limit(options.lab.threads);
   const StopSignal stop;
   const LabTable table = stressTable(options, stop);

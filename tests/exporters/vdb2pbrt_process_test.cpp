@@ -136,7 +136,9 @@ TEST_F(Vdb2PbrtProgram, MistakesEndWithStatusOneAndLeaveOldFiles) {
   expectMistake("t.vdb --tolerance 0", "--tolerance");
   expectMistake("--info nothing.vdb", "cannot be opened");
   writeVdb(in("good.vdb"), VdbKind::OneVoxel);
-  expectMistake("good.vdb -o missing/folder/t.pbrt", "there is no folder");
+  expectMistake("good.vdb -o missing/folder/t.pbrt", "folder \"missing/folder\" does not exist");
+  expectMistake("good.vdb --scene missing/t.pbrt", "folder \"missing\" does not exist");
+  EXPECT_FALSE(std::filesystem::exists(in("good.pbrt"))) << "the question comes before the work";
   expectMistake("good.vdb -o good.nvdb", "the output is a .pbrt include");
   EXPECT_EQ(run("--help").status, 0);
 }

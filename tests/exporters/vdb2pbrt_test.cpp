@@ -332,6 +332,9 @@ TEST_F(Vdb2Pbrt, NamesOtherFilesVersionsAndTruncations) {
     return "";
   };
   EXPECT_NE(complaint("").find("not an OpenVDB file"), std::string::npos);
+  EXPECT_NE(
+      complaint("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n").find("Git LFS pointer"),
+      std::string::npos);
   EXPECT_NE(complaint(folder_.read("t.nvdb")).find("a NanoVDB file already"), std::string::npos);
   std::string version = whole;
   version[8] = '\x7f';

@@ -57,6 +57,20 @@ void expectRefused(const std::vector<NamedImage>& tiles, const std::string& part
   }
 }
 
+TEST(AssembleTiles, KeepsThatBoundsOfATileWereRising) {
+  NamedImage left = tile("left", {{10, 20}, {12, 22}}, 1), right = tile("right", {{12, 20}, {14, 22}}, 2);
+  const auto stateOf = [&](const char* ofLeft, const char* ofRight) {
+    left.image.metadata["boundsState"] = ofLeft;
+    right.image.metadata["boundsState"] = ofRight;
+    const Assembly a = assembleTiles({left, right});
+    return a.image.metadata.count("boundsState") > 0 ? a.image.metadata.at("boundsState") : "none";
+  };
+  EXPECT_EQ(stateOf("settled", "settled"), "settled");
+  EXPECT_EQ(stateOf("settled", "rising"), "rising");
+  EXPECT_EQ(stateOf("rising", "cached"), "rising");
+  EXPECT_EQ(stateOf("settled", "cached"), "none");
+}
+
 TEST(AssembleTiles, RefusesTilesThatDoNotBelongTogether) {
   const NamedImage a = tile("a.exr", kDisplay, 1);
   expectRefused({}, "nothing to assemble");

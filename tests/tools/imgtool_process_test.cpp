@@ -90,6 +90,17 @@ TEST_F(Imgtool, ErrorsNameTheFile) {
   expectIn(result, ".exr, .pfm, .png, .tga");
 }
 
+TEST_F(Imgtool, OutputsAreProbedBeforeInputsAreRead) {
+  for (const std::string command :
+       {"convert nothing.exr no/a.png", "merge nothing.exr --outfile no/a.exr",
+        "assemble nothing.exr --outfile no/a.exr", "diff nothing.exr nothing.exr --outfile no/a.exr"}) {
+    const ProcessResult r = run(command);
+    EXPECT_EQ(r.status, 1);
+    EXPECT_EQ(r.output.find("imgtool: error: cannot write \"no/a."), 0u) << r.output;
+    EXPECT_NE(r.output.find("folder \"no\" does not exist"), std::string::npos) << r.output;
+  }
+}
+
 TEST_F(Imgtool, InfoReportsWhatTheFileHolds) {
   Image image = ramp(4, 2);
   image.metadata = {{"samples", "16"}};

@@ -142,6 +142,31 @@ TEST(Medialab, TheNameOfTheFileSaysTheFormat) {
   EXPECT_FALSE(folder.has("b.txt") || folder.has("b") || folder.has("b.json") || folder.has("plot.jpg"));
 }
 
+TEST(Medialab, OutputsAreProbedBeforeAnythingIsMeasured) {
+  // What these measure would take hours.
+  const std::string trials = " --trials 100000000000 --extinction cosine --estimator ratio ";
+  const std::vector<std::string> commands = {"estimate -o no/a.csv" + trials,
+                                             "converge -o no/a.json" + trials,
+                                             "heatmap -o no/a" + trials,
+                                             "heatmap -o no/a.csv" + trials,
+                                             "docs --trials 100000000000 -o no/a.md",
+                                             "stress -o no/a.csv",
+                                             "precision -o no/a.csv",
+                                             "profile --picture no/a.png",
+                                             "profile -o no/a.csv"};
+  for (const std::string& command : commands) {
+    const ProcessResult r = lab(command);
+    EXPECT_EQ(r.status, 1) << command;
+    EXPECT_EQ(r.output.find("medialab: error: cannot write \"no/a"), 0u) << command << r.output;
+  }
+  const TemporaryFolder folder;
+  EXPECT_EQ(lab("estimate --trials 10 --extinction cosine --estimator ratio --quiet -o A.JSON",
+                folder.path().string())
+                .status,
+            0);
+  EXPECT_EQ(folder.read("A.JSON").front(), '{');
+}
+
 TEST(Medialab, ThreadsHaveOneWord) {
   const std::string command =
       "estimate --estimator ratio --extinction cosine --trials 10 --quiet --no-seconds ";
