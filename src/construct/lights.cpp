@@ -29,7 +29,15 @@ struct LightInput {
 using ReadLight = LightPlan (*)(const LightInput&);
 
 Rgb readScaled(ParamReader& in, std::string_view name) {
-  return in.findSpectrum(name, Rgb(1)) * in.findSpectrum("scale", Rgb(1));
+  const Rgb colour = in.findSpectrum(name, Rgb(1)) * in.findSpectrum("scale", Rgb(1));
+  if (colour.luminance() < 0) {
+    in.diagnostics().warning(
+        in.locationOf(ParamKind::Spectrum, name),
+        in.context() + ": \"" + std::string(name) +
+            "\" times \"scale\" is negative: a light that takes light away. As in PBRT-v3 every sample whose "
+            "sum is negative counts as black, so it darkens less than that, or nothing; lower other lights");
+  }
+  return colour;
 }
 
 /// "samples", with the alias "nsamples" of lower priority.

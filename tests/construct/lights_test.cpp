@@ -207,5 +207,18 @@ TEST_F(ConstructLight, SaysNothingOfLightsThatPbrtRendersAsWell) {
   }
 }
 
+TEST_F(ConstructLight, SaysThatALightTakesLightAway) {
+  for (const char* light : {"LightSource \"point\" \"rgb I\" [ -1 -1 -1 ]",
+                            "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ] \"rgb scale\" [ -2 -2 -2 ]",
+                            "AreaLightSource \"diffuse\" \"rgb L\" [ -1 -1 -1 ] Shape \"sphere\""}) {
+    const Attempt a = attemptWorld(light);
+    EXPECT_TRUE(a.warns("a light that takes light away")) << light << a.messages();
+  }
+  // One channel beyond what RGB can hold is no such light.
+  EXPECT_TRUE(attemptWorld("LightSource \"point\" \"blackbody I\" [ 1200 1 ]").isSilent());
+  EXPECT_TRUE(
+      attemptWorld("LightSource \"point\" \"rgb I\" [ -1 -1 -1 ] \"rgb scale\" [ -1 -1 -1 ]").isSilent());
+}
+
 }  // namespace
 }  // namespace pbrtmedia::test
