@@ -50,6 +50,20 @@ inline Numbers surfaces(const Attempt& a) {
   return n;
 }
 
+/// Values of the BSDFs that the rays meet, for one direction: what does not depend on how lobes are sampled.
+inline Numbers bsdfValues(const Attempt& a) {
+  const Scene& scene = *a.made->scene;
+  Numbers n;
+  std::uint64_t queries = 0;
+  for (const Ray& ray : probingRays()) {
+    const auto hit = scene.closest(ray, 0, Exclusions{}, queries);
+    if (!hit) continue;
+    SurfaceInteraction si = scene.surface(*hit, ray);
+    append(n, hit->primitive->material->bsdf(si, true).f(si.wo, Vector3f(0.36f, 0.48f, 0.8f)));
+  }
+  return n;
+}
+
 /// Values and samples of the BSDFs that the rays meet. Footprints are left out except for `footprint`.
 inline Numbers materials(const Attempt& a, float footprint = 0) {
   const Scene& scene = *a.made->scene;

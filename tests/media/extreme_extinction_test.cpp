@@ -17,14 +17,20 @@ constexpr float kExtreme = 1e20f, kLargest = 3e38f;
 /// From x = -1 through both media.
 const Segment kThrough{{-1, .52f, .48f}, {1, 0, 0}, 0, kInfinity};
 
-std::unique_ptr<Medium> noise(Rgb sigmaT, const AnyEstimator& estimator = {}, const AnySampler& sampler = {},
-                              bool scatters = false) {
-  ProceduralMediumParams params;
-  params.name = "noise";
+/// What all parameters of field media have in common here.
+void set(FieldMediumParams& params, Rgb sigmaT, const AnyEstimator& estimator, const AnySampler& sampler,
+         bool scatters) {
   params.sigmaS = scatters ? sigmaT : Rgb(0);
   params.sigmaA = scatters ? Rgb(0) : sigmaT;
   params.estimator = estimator;
   params.sampler = sampler;
+}
+
+std::unique_ptr<Medium> noise(Rgb sigmaT, const AnyEstimator& estimator = {}, const AnySampler& sampler = {},
+                              bool scatters = false) {
+  ProceduralMediumParams params;
+  params.name = "noise";
+  set(params, sigmaT, estimator, sampler, scatters);
   params.field.function = std::make_shared<PerlinDensity>(PerlinDensity::Params{});
   params.field.cells = {6, 6, 6};
   return makeProceduralMedium(params, "perlin", Transform());
@@ -35,10 +41,7 @@ std::unique_ptr<Medium> ramp(Rgb sigmaT, const AnyEstimator& estimator = {}, con
                              bool scatters = false) {
   GridMediumParams params;
   params.name = "ramp";
-  params.sigmaS = scatters ? sigmaT : Rgb(0);
-  params.sigmaA = scatters ? Rgb(0) : sigmaT;
-  params.estimator = estimator;
-  params.sampler = sampler;
+  set(params, sigmaT, estimator, sampler, scatters);
   params.grid = test::gridOf(16, 1, 1, GridBorder::Clamp,
                              [](int i, int, int) { return i < 8 ? 0.0f : static_cast<float>(i - 7) / 8; });
   return makeGridMedium(params, Transform());

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "support/compare_images.h"
 #include "support/render_scene.h"
 #include "support/source_dir.h"
 
@@ -115,30 +116,22 @@ void expectSameUpToNoise(const std::string& name, bool pixelsToo) {
   ASSERT_EQ(images[0].width(), reference.width());
   ASSERT_EQ(images[0].height(), reference.height());
 
-  double squaredDistance = 0, variance = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     RunningStats means;
     for (const Image& image : images) means.add(imageMean(image, c));
-    for (int y = 0; y < reference.height(); ++y) {
-      for (int x = 0; x < reference.width(); ++x) {
-        RunningStats ours;
-        for (const Image& image : images) ours.add(image.at(x, y, c));
-        const double r = reference.at(x, y, c);
-        const double halfSpacing = std::max(std::abs(r), 6e-5) * 0x1p-11;  // the reference is stored as half
-        squaredDistance += (r - ours.mean()) * (r - ours.mean());
-        variance += ours.variance() * kNoises + halfSpacing * halfSpacing;
-      }
-    }
     const double error = std::sqrt(means.variance() * kNoises), pbrt = imageMean(reference, c);
     std::printf("%-28s channel %zu: mean %.6f, PBRT-v3 %.6f, standard error %.6f\n", name.c_str(), c,
                 means.mean(), pbrt, error);
     EXPECT_LE(std::abs(means.mean() - pbrt), kMaxMeanDifference * pbrt + 3 * error);
   }
-  std::printf("%-28s squared distance %.3f of the noise\n", name.c_str(), squaredDistance / variance);
+  const PixelDistance distance = pixelDistance(images, reference, kNoises);
+  std::printf("%-28s squared distance %.3f of the noise\n", name.c_str(),
+              distance.squared / distance.variance);
   if (pixelsToo) {
-    EXPECT_LT(squaredDistance, kMaxNoiseRatio * variance);
+    EXPECT_LT(distance.squared, kMaxNoiseRatio * distance.variance);
   } else {
-    EXPECT_GT(squaredDistance, kMaxNoiseRatio * variance) << "the difference is gone: so must be its mention";
+    EXPECT_GT(distance.squared, kMaxNoiseRatio * distance.variance)
+        << "the difference is gone: so must be its mention";
   }
 }
 

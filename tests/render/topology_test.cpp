@@ -9,14 +9,6 @@
 namespace pbrtmedia::test {
 namespace {
 
-std::string absorbing(const std::string& name, double sigma, const std::string& extra = "") {
-  std::ostringstream os;
-  os << "MakeNamedMedium \"" << name
-     << "\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [ 0 0 0 ] \"rgb sigma_a\" [ " << sigma << ' '
-     << sigma << ' ' << sigma << " ] " << extra << '\n';
-  return os.str();
-}
-
 constexpr const char* kFromBelow = "";
 constexpr const char* kFromAbove = "LookAt 0 0 20  0 0 0  0 1 0";
 

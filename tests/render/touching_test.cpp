@@ -10,14 +10,6 @@
 namespace pbrtmedia::test {
 namespace {
 
-std::string absorbing(const std::string& name, double sigma, const std::string& extra = "") {
-  std::ostringstream os;
-  os << "MakeNamedMedium \"" << name
-     << "\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [ 0 0 0 ] \"rgb sigma_a\" [ " << sigma << ' '
-     << sigma << ' ' << sigma << " ] " << extra << '\n';
-  return os.str();
-}
-
 /// `content` in attributes of its own.
 std::string block(const std::string& content) { return "AttributeBegin\n" + content + "AttributeEnd\n"; }
 std::string surface(const std::string& material, const std::string& shape,

@@ -153,6 +153,15 @@ inline std::string boxMesh(Vec3d a, Vec3d b) {
   return os.str();
 }
 
+/// MakeNamedMedium of a homogeneous medium that only absorbs, with `extra` parameters.
+inline std::string absorbing(const std::string& name, double sigma, const std::string& extra = "") {
+  std::ostringstream os;
+  os << "MakeNamedMedium \"" << name
+     << "\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [ 0 0 0 ] \"rgb sigma_a\" [ " << sigma << ' '
+     << sigma << ' ' << sigma << " ] " << extra << '\n';
+  return os.str();
+}
+
 /// A box without material around a medium.
 inline std::string mediumBox(const std::string& medium, Vec3d a, Vec3d b) {
   return "AttributeBegin\nMaterial \"none\"\nMediumInterface \"" + medium + "\" \"\"\n" + boxMesh(a, b) +
