@@ -17,8 +17,14 @@ bool precedes(const PrimitiveId& a, const PrimitiveId& b) {
 /// `TrianglePair::deniesHit`. Only a saving of time: the rule is right for any distance.
 constexpr double kNearAnEnd = 1e-2;
 /// Relative to the coordinates: how far apart along the ray two triangles are hit when it goes through a
-/// common edge, and how far from it, within Embree's tolerance of an ulp.
+/// common corner, and how far from it or from a common edge, within Embree's tolerance of an ulp.
 constexpr double kSameCrossing = 1e-5, kOnEdge = 1e-6;
+/// Relative to the coordinates: what is nearer to a silhouette edge than this misses it. Embree's tolerance
+/// is an ulp, of each triangle on its own: the one may be hit where the other is not.
+constexpr double kOnSilhouette = 4 * 0x1p-24;
+/// Hits whose least barycentric weight is more than this are not looked at, nor meshes of more triangles.
+constexpr float kNearEdge = 1e-3f;
+constexpr std::size_t kMostTriangles = 4096;
 /// Relative to the coordinates: rounding of a point and of its way into the space of an instance.
 constexpr double kPointRounding = 4 * 0x1p-24;
 
@@ -75,8 +81,8 @@ bool Query::isLeftOut(const GeometryRecord& record, const RayHit& hit, Vec3d dir
     if (entry.t <= 0 || entry.t >= ray_.tMax) {
       if (between <= kNearAnEnd * pair.scale && pair.deniesHit(entry.t > 0)) return true;
       if (onlyAdjacent_ && pair.isAdjacent()) isAdjacent = true;
-    } else if (between <= kSameCrossing * pair.scale &&
-               pair.isOneCrossing(hit.uv, kOnEdge * (pair.scale + hit.t * length(direction)))) {
+    } else if (pair.isOneCrossing(hit.uv, kOnEdge * (pair.scale + hit.t * length(direction)),
+                                  between <= kSameCrossing * pair.scale)) {
       return true;
     }
   }
@@ -142,6 +148,29 @@ bool Query::take(const GeometryRecord& record, const RayHit& hit) {
   return true;
 }
 
+bool Query::grazesSilhouette(const GeometryRecord& record, const RayHit& hit, Vec3d origin,
+                             Vec3d direction) const {
+  const std::array<float, 3> weights{1 - hit.uv.x - hit.uv.y, hit.uv.x, hit.uv.y};
+  if (std::ranges::min(weights) > kNearEdge || record.triangles.indices.size() > kMostTriangles) return false;
+  const auto corners = record.corners(hit.id.primitive);
+  for (std::size_t own = 0; own < 3; ++own) {
+    if (weights[own] > kNearEdge) continue;
+    const SilhouetteEdge edge{corners[(own + 1) % 3], corners[(own + 2) % 3], origin, direction};
+    if (!(edge.distance() <= kOnSilhouette * edge.scale())) continue;
+    bool hasNeighbour = false, turnsAway = true;
+    for (std::uint32_t i = 0; turnsAway && i < record.triangles.indices.size(); ++i) {
+      if (i == hit.id.primitive) continue;
+      const auto apex = edge.apexOf(record.corners(i));
+      if (!apex) continue;
+      if (isExcluded({hit.id.instance, hit.id.geometry, i})) return false;  // the ray is on the mesh already
+      hasNeighbour = true;
+      turnsAway = edge.side(*apex) * edge.side(corners[own]) > 0;
+    }
+    if (hasNeighbour && turnsAway) return true;
+  }
+  return false;
+}
+
 void Query::filterTriangle(const RTCFilterFunctionNArguments* args) {
   Query& query = of(args->context);
   const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
@@ -151,7 +180,9 @@ void Query::filterTriangle(const RTCFilterFunctionNArguments* args) {
                    .id = {query.instance(), record.number, RTCHitN_primID(at, 1, 0)},
                    .uv = {RTCHitN_u(at, 1, 0), RTCHitN_v(at, 1, 0)}};
   const Vec3d direction(RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0));
-  const bool isOut = !query.exclusions_.isEmpty() && query.isLeftOut(record, hit, direction);
+  const Vec3d origin(RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0));
+  const bool isOut = (!query.exclusions_.isEmpty() && query.isLeftOut(record, hit, direction)) ||
+                     query.grazesSilhouette(record, hit, origin, direction);
   if (isOut || !query.take(record, hit)) args->valid[0] = 0;
 }
 

@@ -52,6 +52,9 @@ class Query {
     return id.geometry == blocker_ && id.instance == PrimitiveId::kNone;
   }
   bool isLeftOut(const GeometryRecord& record, const RayHit& hit, Vec3d direction) const;
+  /// Whether the ray passes within rounding of an edge behind which the mesh turns away, as seen along the
+  /// ray: it then misses both triangles, rather than one of them by chance.
+  bool grazesSilhouette(const GeometryRecord& record, const RayHit& hit, Vec3d origin, Vec3d direction) const;
   /// A point safely inside the triangle of `entry`, when the ray starts within rounding of its border.
   struct BorderStart {
     Point3f inside;   ///< world space

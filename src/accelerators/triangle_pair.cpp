@@ -51,8 +51,10 @@ bool TrianglePair::deniesHit(bool isEnd) const {
 
 bool TrianglePair::isAdjacent() const { return Sides(excluded, hit[0], faceVector(hit), scale).inPlane >= 2; }
 
-bool TrianglePair::isOneCrossing(Point2f uv, double rounding) const {
+bool TrianglePair::isOneCrossing(Point2f uv, double rounding, bool isNear) const {
   const std::array<double, 3> weights{1.0 - uv.x - uv.y, uv.x, uv.y};
+  const double size = std::sqrt(std::max(lengthSquared(hit[1] - hit[0]), lengthSquared(hit[2] - hit[0])));
+  if (std::ranges::min(weights) * size > rounding) return false;
   const auto isShared = [](const std::array<Vec3d, 3>& corners, Vec3d p) {
     return std::ranges::find(corners, p) != corners.end();
   };
@@ -64,10 +66,9 @@ bool TrianglePair::isOneCrossing(Point2f uv, double rounding) const {
     if (shared[i]) ++count;
     if (!shared[i]) weightElsewhere += std::max(0.0, weights[i]);
   }
-  const double size = std::sqrt(std::max(lengthSquared(hit[1] - hit[0]), lengthSquared(hit[2] - hit[0])));
   if (count == 0 || count == 3 || weightElsewhere * size > rounding) return false;
   if (count == 1) {  // a corner: same facing, so the same passage
-    return dot(faceVector(excluded), direction) * dot(faceVector(hit), direction) > 0;
+    return isNear && dot(faceVector(excluded), direction) * dot(faceVector(hit), direction) > 0;
   }
   // An edge: seen along the ray, the two lie on opposite sides of it.
   const std::size_t own = !shared[0] ? 0 : (!shared[1] ? 1 : 2);

@@ -9,8 +9,9 @@ namespace pbrtmedia {
 namespace {
 
 /// Crossings are remembered over this share of the coordinates: a line through a common edge of two triangles
-/// may hit both, some roundings apart, and the accelerator must see that it is one crossing.
-constexpr float kRemembered = 1e-4f;
+/// may hit both, some roundings apart or, where it grazes one, many of them, and the accelerator must see
+/// that it is one crossing.
+constexpr float kRemembered = 1e-2f;
 /// Surfaces closer than this share of the coordinates coincide: some roundings of t.
 constexpr float kCoincident = 0x1p-20f;
 /// Where a ray grazes them, their hits may be farther apart along it: by 1 / cosine, at most this factor.
@@ -69,10 +70,8 @@ void LineWalk::advancePast(const RayHit& hit) {
 }
 
 bool LineWalk::holdsOrigin(const SceneHit& hit) const {
+  if (hit.t() > kNearOrigin * scene_.largestCoordinate()) return false;
   if (!hit.primitive->material && !hit.primitive->media.same()) return false;
-  const Bounds3f& bounds = scene_.bounds();
-  const float scale = std::max(maxComponent(abs(bounds.min)), maxComponent(abs(bounds.max)));
-  if (hit.t() > kNearOrigin * scale) return false;
   const double size = std::max<double>(maxComponent(abs(ray_.o)), coordinatesOf(hit, ray_.time));
   return hit.t() * absDot(Vec3d(scene_.surface(hit, ray_).n), Vec3d(ray_.d)) <= kHoldsOrigin * size;
 }

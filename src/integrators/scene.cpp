@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/scene.h"
 
+#include <algorithm>
+
 #include "integrators/scene_parts.h"
 
 namespace pbrtmedia {
@@ -38,6 +40,7 @@ Scene::Scene(std::unique_ptr<Parts> parts)
       lights_(parts_->lights.begin(), parts_->lights.end()),
       lightTargets_(parts_->lightTargets),
       bounds_(parts_->top.accelerator.bounds()),
+      largestCoordinate_(std::max(maxComponent(abs(bounds_.min)), maxComponent(abs(bounds_.max)))),
       boundaries_(primitiveGroups()),
       vicinity_(primitiveGroups(), parts_->placements) {
   for (std::uint32_t i = 0; i < lights_.size(); ++i) {

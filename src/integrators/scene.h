@@ -114,6 +114,8 @@ class Scene {
   std::vector<Medium*> learners() const;
   /// Bounds of all surfaces (over all times). Empty for a scene without surfaces.
   const Bounds3f& bounds() const { return bounds_; }
+  /// The largest absolute value in `bounds`.
+  float largestCoordinate() const { return largestCoordinate_; }
   /// Which boundaries of media close.
   const BoundaryClosure& boundaries() const { return boundaries_; }
   /// Whether a boundary other than the one that was hit may pass through a point (world).
@@ -142,6 +144,7 @@ class Scene {
   std::vector<std::uint32_t> hiders_;  ///< up to the last light that has one
   std::vector<std::uint32_t> infiniteLights_;
   Bounds3f bounds_;
+  float largestCoordinate_;
   BoundaryClosure boundaries_;
   BoundaryVicinity vicinity_;
   bool hasMediumBoundaries_ = false, hasShadowAlpha_ = false, hasVisibleEmitters_ = false,

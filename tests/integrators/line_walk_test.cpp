@@ -211,5 +211,61 @@ TEST(LineWalk, TellsWhatCoincidesFromWhatIsOnlyNear) {
   EXPECT_EQ(start.entries().size(), 1 + others.size());
 }
 
+/// A box of fog, and a line through a point of one of its edges, up to rounding.
+struct EdgeKit {
+  SceneKit kit;
+  std::unique_ptr<const Scene> scene;
+  Rng rng{20261129};
+  EdgeKit() {
+    const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
+    kit.builder.addPrimitive({.shape = kit.box({-1, -1, -1}, {1, 1, 1}), .media = {fog, nullptr}});
+    scene = kit.finish();
+  }
+  Point3f onEdge() {
+    Point3f p{2 * rng.uniform() - 1, rng.uniform() < 0.5f ? -1.0f : 1.0f,
+              rng.uniform() < 0.5f ? -1.0f : 1.0f};
+    for (auto turns = static_cast<int>(3 * rng.uniform()); turns > 0; --turns) p = {p.y, p.z, p.x};
+    return p;
+  }
+};
+
+TEST(LineWalk, EntersAsOftenAsItLeavesThroughEdges) {
+  EdgeKit own;
+  for (int i = 0; i < 200000; ++i) {
+    const Point3f p = own.onEdge();
+    Point3f o;
+    do {
+      for (std::size_t a = 0; a < 3; ++a) o[a] = 10 * own.rng.uniform() - 5;
+    } while (!(maxComponent(abs(o)) > 1.1f));
+    const Ray ray = rayOf(o, normalize(p - o));
+    int inside = 0;
+    for (const SceneHit& hit : allHits(*own.scene, ray)) {
+      inside += dot(own.scene->surface(hit, ray).n, ray.d) < 0 ? 1 : -1;
+      ASSERT_TRUE(inside == 0 || inside == 1) << i << ": " << o << " to " << p;
+    }
+    ASSERT_EQ(inside, 0) << i << ": " << o << " to " << p;
+  }
+}
+
+TEST(LineWalk, LeavesOnceThroughAnEdgeOfAFaceThatItGrazes) {
+  // Two of some 1e8 lines that leave a box through one face and, an ulp beside the edge, hit the next.
+  SceneKit kit;
+  const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
+  TriangleMesh::Params mesh;
+  mesh.indices = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+                  1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
+  mesh.P = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+            {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  const Shape* box = kit.builder.own(std::make_unique<TriangleMesh>(std::move(mesh), ShapePlacement{}));
+  kit.builder.addPrimitive({.shape = box, .media = {fog, nullptr}});
+  const auto scene = kit.finish();
+  const Ray far = rayOf({-0.699058831f, -0.999986589f, 0.976712108f},
+                        {-0.991513848f, -7.54967841e-05f, 0.13000083f}),
+            near = rayOf({0.59614712f, -0.999491274f, 0.901616037f},
+                         {-0.0354304612f, -0.0051690191f, 0.999358773f});
+  EXPECT_EQ(allHits(*scene, far).size(), 1u);
+  EXPECT_EQ(allHits(*scene, near).size(), 1u);
+}
+
 }  // namespace
 }  // namespace pbrtmedia
