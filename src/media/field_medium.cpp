@@ -23,12 +23,26 @@ constexpr Rgb kNaN{std::numeric_limits<float>::quiet_NaN()};
 /// Optical depth of a bound above which it is refined: far above what is rendered every day, and some tenths
 /// of a millisecond of null collisions.
 constexpr double kRefinedDepth = 0x1p14;
+/// Optical depth of unproven bounds across a medium above which less is tracked: some milliseconds of null
+/// collisions, mean free paths of 4e-6 of the medium.
+constexpr double kMostDepth = 0x1p18;
 /// Of a segment's length: rounding of the place where it leaves the medium.
 constexpr double kEndSlack = 1e-12;
 
 bool hasNaN(const Segment& s) {
   return std::isnan(s.tMin) || std::isnan(s.tMax) || std::isnan(s.o.x + s.o.y + s.o.z) ||
          std::isnan(s.d.x + s.d.y + s.d.z);
+}
+
+/// The longest diagonal, in world space, of the box that may hold density.
+double extentOf(const DensityKernel& kernel) {
+  const Bounds3d& box = kernel.superVoxels().lattice().box;
+  double most = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Transform& world = kernel.worldFromLocal();
+    most = std::max(most, length(world.point(box.corner(i)) - world.point(box.corner(7 - i))));
+  }
+  return most;
 }
 
 Vec3d pointOf(const Segment& segment, double t) { return Vec3d(segment.o) + t * Vec3d(segment.d); }
@@ -40,6 +54,7 @@ FieldMedium::FieldMedium(const FieldMediumParams& params, std::string_view typeN
     : Medium(params.name, params.overlap),
       typeName_(typeName),
       kernel_(std::move(kernel)),
+      extent_(extentOf(*kernel_)),
       sigmaS_(params.sigmaS),
       sigmaT_(params.sigmaA + params.sigmaS),
       isAuto_(!params.estimator),
@@ -87,11 +102,12 @@ FreeFlight FieldMedium::sampleFreeFlight(const Segment& segment, Rgb throughput,
   // What only absorbs dims: its collisions would end paths and nothing else.
   if (sigmaS_.isBlack()) return {false, 0, dimmed(*line, segment, rng, counters)};
   const AnyLaw* const law = isExponential_ ? nullptr : &law_;
+  const Rgb sigmaT = trackedSigmaT();
   FreeFlight flight =
-      sigmaT_.isGrey()
-          ? flyOn(*line, segment, FlightQuery<1>{{sigmaT_.r}, {albedo_.average()}, {1}, law}, rng, counters)
+      sigmaT.isGrey()
+          ? flyOn(*line, segment, FlightQuery<1>{{sigmaT.r}, {albedo_.average()}, {1}, law}, rng, counters)
           : flyOn(*line, segment,
-                  FlightQuery<3>{channelsOf(sigmaT_), channelsOf(albedo_),
+                  FlightQuery<3>{channelsOf(sigmaT), channelsOf(albedo_),
                                  importanceOf(channelsOf(throughput)), law},
                   rng, counters);
   if (!flight.collided) return flight;
@@ -149,12 +165,13 @@ void FieldMedium::flyToEmission(EmissionSamples& samples, const ClippedLine& emi
                                 const Segment& segment, Rng& rng, RenderCounters& counters) const {
   const auto line = kernel_->clip(segment);
   if (!line) return;
+  const Rgb sigmaT = trackedSigmaT();
   const FreeFlight flight =
-      sigmaT_.isGrey() ? flyOn(*line, segment, FlightQuery<1>{.sigmaT = {sigmaT_.r}}, rng, counters)
-                       : flyOn(*line, segment,
-                               FlightQuery<3>{.sigmaT = channelsOf(sigmaT_),
-                                              .importance = importanceOf(channelsOf(emission_.sourceOf()))},
-                               rng, counters);
+      sigmaT.isGrey() ? flyOn(*line, segment, FlightQuery<1>{.sigmaT = {sigmaT.r}}, rng, counters)
+                      : flyOn(*line, segment,
+                              FlightQuery<3>{.sigmaT = channelsOf(sigmaT),
+                                             .importance = importanceOf(channelsOf(emission_.sourceOf()))},
+                              rng, counters);
   if (!flight.collided) return;
   const double t = std::clamp(flight.t, segment.tMin, segment.tMax);
   const double share = emission_.flightShareAt(emissionLine, flight.t - emissionLine.tEntry());
@@ -187,6 +204,20 @@ void FieldMedium::exploreBounds(const Exploration& plan, std::size_t first, std:
   if (learned == nullptr) return;
   counters.densityLookups += pbrtmedia::exploreBounds(*learned, plan, first, last, seed,
                                                       [&](Vec3d p) { return kernel_->uncutDensity(p); });
+}
+
+std::string FieldMedium::complaint() const {
+  std::string text = kernel_->complaint();
+  if (const double share = trackedShare(); share < 1) {
+    std::ostringstream more;
+    more << (text.empty() ? "" : "; ") << "its extinction is rendered as "
+         << static_cast<float>(double{sigmaT_.max()} * share) << " at density 1 instead of " << sigmaT_.max()
+         << ", as bounds that nobody has proven cost a null collision for each mean free path: it looks the "
+            "same "
+            "except where its density is below a thousandth of the largest, where more light passes";
+    text += more.str();
+  }
+  return text;
 }
 
 std::string FieldMedium::describe() const {
@@ -228,8 +259,15 @@ Rgb FieldMedium::dimmed(const ClippedLine& line, const Segment& segment, Rng& rn
                         RenderCounters& counters) const {
   if (line.isRefined() && isExponential_) [[unlikely]]
     return dimmedOrOpaque(line, segment, rng, counters);
-  return sigmaT_.isGrey() ? estimate(line, segment, Channels<1>{sigmaT_.r}, rng, counters)
-                          : estimate(line, segment, channelsOf(sigmaT_), rng, counters);
+  const Rgb sigmaT = trackedSigmaT();
+  return sigmaT.isGrey() ? estimate(line, segment, Channels<1>{sigmaT.r}, rng, counters)
+                         : estimate(line, segment, channelsOf(sigmaT), rng, counters);
+}
+
+double FieldMedium::trackedShare() const {
+  if (kernel_->bounds().areProven() || !isExponential_) return 1;
+  const double depth = double{sigmaT_.max()} * double{kernel_->superVoxels().maximum()} * extent_;
+  return depth > kMostDepth ? kMostDepth / depth : 1;
 }
 
 Rgb FieldMedium::dimmedOrOpaque(const ClippedLine& line, const Segment& segment, Rng& rng,

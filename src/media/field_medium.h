@@ -49,7 +49,7 @@ class FieldMedium final : public Medium {
   void exploreBounds(const Exploration& plan, std::size_t first, std::size_t last, std::uint64_t seed,
                      RenderCounters& counters) const override;
 
-  std::string complaint() const override { return kernel_->complaint(); }
+  std::string complaint() const override;
   std::string describe() const override;
 
  private:
@@ -57,6 +57,16 @@ class FieldMedium final : public Medium {
   /// would cost millions of null collisions it tells closer ones.
   std::optional<ClippedLine> lineOf(const Segment& segment) const;
   std::optional<ClippedLine> emissionLine(const Segment& segment) const;
+
+  /// The extinction that estimators and samplers see, and its share of the true one. Unproven bounds cannot
+  /// be made closer: where they would cost more null collisions across the medium than anybody waits for, it
+  /// is as thin as that allows. Laws other than the exponential never get opaque, and keep what they were
+  /// given.
+  double trackedShare() const;
+  Rgb trackedSigmaT() const {
+    const double share = trackedShare();
+    return share < 1 ? sigmaT_ * static_cast<float>(share) : sigmaT_;
+  }
 
   /// The emission that free flights find. What a collision stands for is emission over extinction, of which
   /// the density is no part.
@@ -91,6 +101,7 @@ class FieldMedium final : public Medium {
 
   std::string_view typeName_;
   std::unique_ptr<const DensityKernel> kernel_;
+  double extent_;  ///< of the box that may hold density, world length
   Rgb sigmaS_, sigmaT_, albedo_;
   bool isAuto_;  ///< the estimator
   AnyEstimator estimator_;

@@ -595,6 +595,28 @@ TEST_F(Pbrt, EndsPathsThatScatterWhereCoordinatesCannotTell) {
   EXPECT_EQ(stats.at("renders").at(0).at("counters").at("stuckPaths").get<int>(), 4);
 }
 
+TEST_F(Pbrt, SaysWhichExtinctionComesOutRightWhereOneIsTooLargeForCoordinates) {
+  const auto outputAt = [&](const std::string& sigma) {
+    folder_.write(
+        "milk.pbrt",
+        "LookAt 0 0 -5  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10 "
+        "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" \"m.exr\" "
+        "Sampler \"random\" \"integer pixelsamples\" 1 Integrator \"volpath\" WorldBegin "
+        "LightSource \"infinite\" MakeNamedMedium \"milk\" \"string type\" \"homogeneous\" "
+        "\"rgb sigma_s\" [" +
+            sigma + " " + sigma + " " + sigma +
+            "] \"rgb sigma_a\" [0 0 0] "
+            "MediumInterface \"milk\" \"\" Material \"\" Shape \"sphere\" WorldEnd");
+    const ProcessResult r = pbrt("milk.pbrt");
+    EXPECT_EQ(r.status, 0) << r.output;
+    return r.output;
+  };
+  const std::string dense = outputAt("1e6");
+  EXPECT_NE(dense.find("medium \"milk\": its mean free path, 1e-06"), std::string::npos) << dense;
+  EXPECT_NE(dense.find("an extinction of at most 10485.8 looks the same"), std::string::npos) << dense;
+  EXPECT_EQ(outputAt("10000").find("mean free path"), std::string::npos);
+}
+
 TEST_F(Pbrt, WritesNoImageWhenItIsStoppedBeforeTheFirstSample) {
   folder_.write("closed.pbrt", mirrorSphere(""));
   ProcessResult r;

@@ -3,6 +3,10 @@
 // sampler ends, with the result of an opaque body.
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "fields/exploration.h"
+#include "fields/learned_bounds.h"
 #include "fields/perlin_density.h"
 #include "media/grid_medium.h"
 #include "media/procedural_medium.h"
@@ -108,6 +112,108 @@ TEST(ExtremeExtinction, KeepsTheDistributionOfFlights) {
   }
   const test::ZTest test = test::zTest(depths, 1.0, kSeed);
   EXPECT_LT(std::abs(test.z()), test::kMaxAbsZ) << test;
+}
+
+/// 1 behind x = 0.55 and 0 before, about which nothing is known: a super-voxel holds both.
+class Blocks final : public DensityFunction {
+ public:
+  float at(Vec3d p) const override { return p.x > 0.55 ? 1 : 0; }
+  std::optional<Interval> range(const Bounds3d&) const override { return std::nullopt; }
+  std::string describe() const override { return "blocks"; }
+};
+
+/// Bounds given, or learned and explored.
+std::unique_ptr<Medium> blocks(float sigma, BoundsParams::Source source, bool scatters,
+                               const AnyEstimator& estimator = {}) {
+  ProceduralMediumParams params;
+  params.name = "blocks";
+  params.sigmaS = Rgb(scatters ? sigma : 0);
+  params.sigmaA = Rgb(scatters ? 0 : sigma);
+  params.estimator = estimator;
+  params.field.function = std::make_shared<Blocks>();
+  params.field.cells = {3, 3, 3};
+  params.bounds.source = source;
+  params.bounds.majorant = sigma;
+  params.bounds.epsilon = 1e-3f * sigma;
+  auto medium = makeProceduralMedium(params, "procedural", Transform());
+  if (LearnedBounds* const learned = medium->learnedBounds()) {
+    RenderCounters counters;
+    const Exploration plan = planExploration(learned->inForce().shape(), 4, 27 * 4 * 16);
+    medium->exploreBounds(plan, 0, plan.blockCount(), kSeed, counters);
+    learned->publish();
+  }
+  return medium;
+}
+
+constexpr std::array kUnproven = {BoundsParams::Source::Constant, BoundsParams::Source::Progressive};
+
+TEST(ExtremeExtinction, EndsUnderUnprovenBounds) {
+  Rng rng(kSeed);
+  RenderCounters counters;
+  for (const auto source : kUnproven) {
+    for (const float sigma : {kExtreme, 1e30f}) {
+      const auto absorbing = blocks(sigma, source, false), scattering = blocks(sigma, source, true);
+      for (int i = 0; i < 8; ++i) {
+        EXPECT_EQ(absorbing->transmittance(kThrough, rng, counters), Rgb(0));
+        // Up to where density begins nothing is lost.
+        const Segment before{kThrough.o, kThrough.d, 0, 1.55};
+        EXPECT_EQ(absorbing->transmittance(before, rng, counters), Rgb(1));
+        EXPECT_FALSE(scattering->sampleFreeFlight(before, Rgb(1), rng, counters).collided);
+        const FreeFlight flight = scattering->sampleFreeFlight(kThrough, Rgb(1), rng, counters);
+        ASSERT_TRUE(flight.collided);
+        EXPECT_NEAR(flight.t, 1.55, 1e-3);
+        EXPECT_EQ(flight.weight, Rgb(1));
+      }
+      EXPECT_NE(absorbing->complaint().find("instead of"), std::string::npos) << absorbing->complaint();
+    }
+  }
+  EXPECT_EQ(counters.boundViolations, 0u);
+}
+
+TEST(ExtremeExtinction, OfNextToNothingIsNothingUnderUnprovenBounds) {
+  Rng rng(kSeed);
+  RenderCounters counters;
+  constexpr float kTiny = 1e-30f;
+  for (const auto source : kUnproven) {
+    for (const std::string_view name : estimatorNames()) {
+      SCOPED_TRACE(name);
+      const AnyEstimator estimator = *findEstimator(name);
+      if (traitsOf(estimator).needsPieces) continue;
+      const auto absorbing = blocks(kTiny, source, false, estimator);
+      test::RunningStats through;
+      for (int i = 0; i < 4096; ++i) {
+        const Rgb value = absorbing->transmittance(kThrough, rng, counters);
+        ASSERT_TRUE(std::isfinite(value.r));
+        through.add(value.r);
+      }
+      // Some have noise even here.
+      if (traitsOf(estimator).bias != EstimatorTraits::Bias::Unbiased) continue;
+      EXPECT_NEAR(through.mean(), 1, test::kMaxAbsZ * through.standardError() + 1e-6);
+    }
+    EXPECT_EQ(blocks(kTiny, source, false)->transmittance(kThrough, rng, counters), Rgb(1));
+    const auto scattering = blocks(kTiny, source, true);
+    EXPECT_FALSE(scattering->sampleFreeFlight(kThrough, Rgb(1), rng, counters).collided);
+    EXPECT_EQ(scattering->complaint(), "");
+  }
+  EXPECT_EQ(counters.boundViolations, 0u);
+}
+
+TEST(ExtremeExtinction, IsTrackedAsGivenWhereItCanBe) {
+  Rng rng(kSeed);
+  RenderCounters counters;
+  const float sigma = 1e4f;
+  for (const auto source : kUnproven) {
+    const auto scattering = blocks(sigma, source, true);
+    EXPECT_EQ(scattering->complaint(), "");
+    test::RunningStats depths;
+    for (int i = 0; i < 300; ++i) {
+      const FreeFlight flight = scattering->sampleFreeFlight(kThrough, Rgb(1), rng, counters);
+      ASSERT_TRUE(flight.collided);
+      depths.add(double{sigma} * (flight.t - 1.55));
+    }
+    const test::ZTest test = test::zTest(depths, 1.0, kSeed);
+    EXPECT_LT(std::abs(test.z()), test::kMaxAbsZ) << test;
+  }
 }
 
 }  // namespace
