@@ -33,13 +33,20 @@ class Exclusions {
   };
   static constexpr std::size_t kCapacity = 16;
 
-  Exclusions() = default;
+  Exclusions() {}
   explicit Exclusions(PrimitiveId id, float t = 0) { add(id, t); }
+  /// Copies are made for every ray, mostly of one entry or none: only what is there is copied.
+  Exclusions(const Exclusions& o) { *this = o; }
+  Exclusions& operator=(const Exclusions& o) {
+    count_ = o.count_;
+    for (std::size_t i = 0; i < count_; ++i) std::construct_at(&entries_[i], o.entries_[i]);
+    return *this;
+  }
   /// False when full (the entry was not taken): the caller must then advance tMin past t.
   bool add(PrimitiveId id, float t) {
     if (!id.isValid()) return true;
     if (count_ == kCapacity) return false;
-    entries_[count_++] = {id, t};
+    std::construct_at(&entries_[count_++], Entry{id, t});
     return true;
   }
   /// Forgets entries with t below `t`: hits there are behind tMin already.
@@ -54,7 +61,9 @@ class Exclusions {
   bool isEmpty() const { return count_ == 0; }
 
  private:
-  std::array<Entry, kCapacity> entries_{};
+  union {  // nothing is written before it is needed
+    std::array<Entry, kCapacity> entries_;
+  };
   std::size_t count_ = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "integrators/scene.h"
 
@@ -85,13 +86,13 @@ void BoundaryVicinity::add(const Primitive& boundary, const Placement* placement
     }
     if (item.planes.empty()) return;  // no surface
   }
+  // Twice the tolerance at its extent: the tolerance is more only at points that much farther away.
+  const auto room = static_cast<float>(2 * kVicinity * item.extent) + std::numeric_limits<float>::min();
+  for (std::size_t i = 0; i < 3; ++i) {
+    item.reach.min[i] = std::nextafter(item.box.min[i] - room, -kInfinity);
+    item.reach.max[i] = std::nextafter(item.box.max[i] + room, kInfinity);
+  }
   items_.push_back(std::move(item));
-}
-
-bool BoundaryVicinity::mayHold(Point3f p, const Primitive* own, const Placement* placement) const {
-  return isUnknown_ || std::any_of(items_.begin(), items_.end(), [&](const Item& item) {
-           return !(item.boundary == own && item.placement == placement) && item.mayHold(p);
-         });
 }
 
 }  // namespace pbrtmedia

@@ -21,7 +21,14 @@ class BoundaryVicinity {
                    const std::deque<Placement>& placements);
   /// False only if every boundary is farther from `p` (world) than rounding, at all times. One of them, which
   /// holds it, may be left out: `own` as it is placed.
-  bool mayHold(Point3f p, const Primitive* own = nullptr, const Placement* placement = nullptr) const;
+  bool mayHold(Point3f p, const Primitive* own = nullptr, const Placement* placement = nullptr) const {
+    if (isUnknown_) return true;
+    for (const Item& item : items_) {
+      if (!item.reach.contains(p) || (item.boundary == own && item.placement == placement)) continue;
+      if (item.mayHold(p)) return true;
+    }
+    return false;
+  }
 
  private:
   struct Plane {
@@ -32,6 +39,7 @@ class BoundaryVicinity {
     const Primitive* boundary;
     const Placement* placement;
     Bounds3f box;                 ///< world
+    Bounds3f reach{};             ///< outside it is no point that `mayHold` is true of
     double extent = 0;            ///< largest coordinate that had a part in its world positions
     double radius = 0;            ///< of a sphere around the middle of the box; 0: none
     std::vector<Plane> planes{};  ///< empty: not known

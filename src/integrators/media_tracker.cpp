@@ -116,8 +116,19 @@ bool MediaTracker::reaches(MediumState state, PlacedMedium near, const Coinciden
 void MediaTracker::leaveSurface(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si,
                                 const CoincidentSurfaces& coincident, Vector3f wi, RenderCounters& counters,
                                 MismatchLog* log) const {
-  const bool isPlain = hit.primitive->media.same();
-  if (isPlain && coincident.isEmpty()) return;
+  if (!coincident.isEmpty()) return leaveAll(state, hit, si, coincident, wi, counters, log);
+  if (hit.primitive->media.same()) return;
+  const bool goesOutside = dot(wi, si.n) > 0, cameFromOutside = dot(si.wo, si.n) > 0;
+  if (goesOutside != cameFromOutside) return pass(state, {&hit, si.p, goesOutside}, counters, log);
+  const Sides s = sidesOf(hit, !goesOutside);
+  if (!s.nearNamesBoundary() || state.boundary() == s.near) return;
+  noteMismatch(state, s, *hit.primitive, si.p, counters, log);
+  state.setBoundary(s.near);
+}
+
+void MediaTracker::leaveAll(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si,
+                            const CoincidentSurfaces& coincident, Vector3f wi, RenderCounters& counters,
+                            MismatchLog* log) {
   const auto crosses = [&](Normal3f n) { return (dot(wi, n) > 0) != (dot(si.wo, n) > 0); };
   const auto meeting = [&](const SceneHit& at, Point3f p, Normal3f n) {
     return Meeting{&at, p, dot(wi, n) > 0};
@@ -126,7 +137,7 @@ void MediaTracker::leaveSurface(MediumState& state, const SceneHit& hit, const S
   std::size_t count = 0;
   if (crosses(si.n)) {
     ahead[count++] = meeting(hit, si.p, si.n);
-  } else if (!isPlain) {
+  } else if (!hit.primitive->media.same()) {
     const Sides s = sidesOf(hit, !(dot(wi, si.n) > 0));
     if (s.nearNamesBoundary() && !reaches(state, s.near, coincident, -si.wo)) {
       noteMismatch(state, s, *hit.primitive, si.p, counters, log);

@@ -117,6 +117,10 @@ class MediaTracker {
   };
   static bool fits(const MediumState& state, const Meeting& at);
   static void pass(MediumState& state, const Meeting& at, RenderCounters& counters, MismatchLog* log);
+  /// `leaveSurface` where others coincide.
+  static void leaveAll(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si,
+                       const CoincidentSurfaces& coincident, Vector3f wi, RenderCounters& counters,
+                       MismatchLog* log);
   static bool reaches(MediumState state, PlacedMedium near, const CoincidentSurfaces& coincident, Vector3f d);
 
   const BoundaryClosure& boundaries_;

@@ -23,6 +23,7 @@ std::unique_ptr<const EmissionVolume> CellEmission::over(
   made->weights_.resize(static_cast<std::size_t>(made->lattice_.shape.stored()));
   std::uint64_t number = 0;
   float brightest = 0;
+  double power = 0;
   const double volumeScale = std::abs(worldFromLocal.matrix().determinant3());
   for (std::int64_t k = 0; k < n.z; ++k) {
     for (std::int64_t j = 0; j < n.y; ++j) {
@@ -38,6 +39,7 @@ std::unique_ptr<const EmissionVolume> CellEmission::over(
         made->emitters_.push_back(here);
         made->sum_ += static_cast<double>(weight.emission) * volume;
         made->cumulative_.push_back(made->sum_);
+        power += static_cast<double>(weight.power) * volume;
         brightest = std::max(brightest, weight.radiance);
         for (int corner = 0; corner < 8; ++corner) {
           made->bounds_.expand(Point3f(worldFromLocal.point(box.corner(corner))));
@@ -55,7 +57,7 @@ std::unique_ptr<const EmissionVolume> CellEmission::over(
   // radiance and the surface, over the 4 pi that `total` leaves out.
   const Vec3d box = Vec3d(made->bounds_.diagonal());
   const auto mostPerRadiance = static_cast<float>(0.5 * (box.x * box.y + box.y * box.z + box.z * box.x));
-  made->total_ = emission * static_cast<float>(made->sum_);
+  made->total_ = emission * static_cast<float>(power);
   for (std::size_t c = 0; c < 3; ++c) {
     made->total_[c] = std::min(made->total_[c], radiance[c] * brightest * mostPerRadiance);
   }

@@ -20,6 +20,7 @@ class CellEmission final : public EmissionVolume {
   /// What a cell emits per volume, as one number, and what one that is not transparent shows of it at most.
   struct Weight {
     float emission = 0;  ///< relative to `emission` of `over`, less what the cell itself keeps back
+    float power = 0;     ///< the same, closer to what is there: it may be 0 where points must be chosen
     float radiance = 0;  ///< relative to `radiance` of `over`
   };
   /// Null when no cell has a weight. `emission`: sigma_a Le, `radiance`: sigma_a Le / sigma_t, at weight 1.

@@ -7,9 +7,17 @@
 namespace pbrtmedia {
 namespace {
 
+/// 1 - exp(-depth), to rounding.
+double absorbedOf(double depth) {
+  if (depth > 0x1p-5) return -std::expm1(-depth);
+  // Most cells of a thin medium: the series up to depth^7.
+  const double x = depth;
+  return x * (1 - x / 2 * (1 - x / 3 * (1 - x / 4 * (1 - x / 5 * (1 - x / 6 * (1 - x / 7))))));
+}
+
 /// What an interval absorbs of light that crosses it; a length may be infinite where sigma is not 0.
 EmissionSampler::Channels absorbedOn(const EmissionSampler::Channels& sigmaT, double length) {
-  const auto absorbed = [&](double sigma) { return sigma > 0 ? -std::expm1(-sigma * length) : 0.0; };
+  const auto absorbed = [&](double sigma) { return sigma > 0 ? absorbedOf(sigma * length) : 0.0; };
   const double first = absorbed(sigmaT[0]);
   return {first, sigmaT[1] == sigmaT[0] ? first : absorbed(sigmaT[1]),
           sigmaT[2] == sigmaT[0] ? first : absorbed(sigmaT[2])};

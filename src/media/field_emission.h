@@ -45,9 +45,11 @@ class FieldEmission {
   /// cell that one sees through is dense nowhere, so its profile is good; in one of many mean free paths
   /// light comes from the first of them behind the true surface, of which the profile knows nothing, and a
   /// flight that ends there always is.
-  double flightShare(const SuperVoxel& cell) const {
+  double flightShare(const SuperVoxel& cell) const { return flightShareAt(densityOf(cell)); }
+  double flightShareAt(double density) const {
     constexpr double kThin = 1, kThick = 4;  // optical depths of a cell
-    const double depth = static_cast<double>(sigmaT_.max()) * densityOf(cell) * cellLength_;
+    const double depth = static_cast<double>(sigmaT_.max()) * density * cellLength_;
+    if (depth <= kThin) return 0;
     const double x = std::clamp((depth - kThin) / (kThick - kThin), 0.0, 1.0);
     return x * x * (3 - 2 * x);
   }
@@ -71,13 +73,13 @@ class FieldEmission {
     return static_cast<double>(cells_ ? cell.mean : controlDensity(cell));
   }
 
-  SuperVoxels patterned(const SuperVoxels& bounds, const Transform& worldFromLocal) const;
+  SuperVoxels patterned(const SuperVoxels& bounds, const DensityKernel& densities) const;
 
   Rgb emission_, sigmaT_;
   double cellLength_ = 0;
   std::shared_ptr<const EmissionPattern> pattern_;
-
-  /// upper: strength; mean: control of the density.
+  /// upper: strength; lower: with a pattern, an estimate of what it is on the average, at most `upper`; mean:
+  /// control of the density.
   std::optional<SuperVoxels> cells_;
 };
 

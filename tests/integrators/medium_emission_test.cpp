@@ -535,6 +535,50 @@ TEST(MediumLight, PowerIsThatOfItsVolumeWhenThinAndOfItsSurfaceWhenDense) {
   }
 }
 
+TEST(MediumLight, PowerOfAPatternedMediumIsThatOfItsPointsNotOfTheirBounds) {
+  // Hot in the middle of a cloud: the bounds of cells say several times what is there, and light selection
+  // would look at hardly anything else.
+  GridMediumParams p;
+  p.name = "fire";
+  p.sigmaA = Rgb(1e-3f);
+  p.sigmaS = Rgb(0);
+  p.le = Rgb(1000);
+  p.bounds.cells = std::array{6, 6, 6};
+  p.grid.nx = p.grid.ny = p.grid.nz = 24;
+  p.grid.p0 = {-1, -1, -1};
+  p.grid.p1 = {1, 1, 1};
+  GridField::Params temperatures = p.grid;
+  for (int i = 0; i < 24 * 24 * 24; ++i) {
+    const double x = i % 24 - 11.5, y = i / 24 % 24 - 11.5, z = i / 576 - 11.5;
+    const double r2 = (x * x + y * y + z * z) / (12 * 12);
+    p.grid.density.push_back(static_cast<float>(std::exp(-r2)));
+    temperatures.density.push_back(static_cast<float>(3200 * std::exp(-0.3 * r2)));
+  }
+  p.emissionPattern = makeBlackbodyPattern(temperatures, {}, Transform());
+  const std::unique_ptr<Medium> fire = makeGridMedium(p, Transform());
+  RenderCounters counters;
+  constexpr int kPoints = 48, kPerCell = kPoints / 6;
+  double truth = 0, ofBounds = 0;
+  std::array<double, 216> most{};
+  for (int z = 0; z < kPoints; ++z) {
+    for (int y = 0; y < kPoints; ++y) {
+      for (int x = 0; x < kPoints; ++x) {
+        const auto at = [](int i) { return static_cast<float>(2 * (i + 0.5) / kPoints - 1); };
+        const Rgb e = fire->at({at(x), at(y), at(z)}, counters).emission;
+        const double emitted = double{e.r} + double{e.g} + double{e.b};
+        double& cell = most[static_cast<std::size_t>((z / kPerCell * 6 + y / kPerCell) * 6 + x / kPerCell)];
+        cell = std::max(cell, emitted);
+        truth += emitted * 8 / (kPoints * kPoints * kPoints);
+      }
+    }
+  }
+  for (const double cell : most) ofBounds += cell * 8 / 216;
+  const auto volume = fire->emissionVolume({});
+  const Rgb power = MediumLight({fire.get(), nullptr}, *volume).power() / (4 * kPi);
+  EXPECT_NEAR(double{power.r} + double{power.g} + double{power.b}, truth, 0.1 * truth);
+  EXPECT_GT(ofBounds, 1.5 * truth) << "or this test tells nothing";
+}
+
 TEST(MediumEmission, FloorUnderADenseBallIsThatOfASurfaceWithBoundedNoise) {
   // Of every density the same noise, and of the limit the same light as of a surface.
   for (const auto storage : kStorages) {
