@@ -74,7 +74,7 @@ def main():
         'MakeNamedMedium "cloud" "string type" "heterogeneous"',
         f'  "integer nx" {NX} "integer ny" {NY} "integer nz" {NZ}',
         f'  "point p0" [ {P0[0]} {P0[1]} {P0[2]} ] "point p1" [ {P1[0]} {P1[1]} {P1[2]} ]',
-        '  "rgb sigma_a" [ 0.02 0.02 0.02 ] "rgb sigma_s" [ 23.98 23.98 23.98 ] "float g" 0.4',
+        '  "rgb sigma_a" [ 0.02 0.02 0.02 ] "rgb sigma_s" [ 14.98 14.98 14.98 ] "float g" 0.4',
         '  "float density" [',
     ]
     rows = density.reshape(NZ * NY, NX)
