@@ -15,9 +15,9 @@
 #include "construct/shapes.h"
 #include "construct/textures.h"
 #include "construct/world_builder.h"
-#include "integrators/endless_medium.h"
-#include "integrators/media_faults.h"
 #include "media/homogeneous.h"
+#include "world/endless_medium.h"
+#include "world/media_faults.h"
 
 namespace pbrtmedia {
 namespace {

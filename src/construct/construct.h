@@ -10,10 +10,10 @@
 #include "cameras/camera.h"
 #include "construct/construct_options.h"
 #include "film/film.h"
-#include "integrators/integrator.h"
-#include "integrators/scene.h"
+#include "render/integrator.h"
 #include "samplers/sampler.h"
 #include "scene/description.h"
+#include "world/scene.h"
 
 namespace pbrtmedia {
 

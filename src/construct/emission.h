@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "construct/medium_kinds.h"
-#include "media/emission_patterns.h"
+#include "media/emission/emission_patterns.h"
 #include "media/field_medium_params.h"
 #include "scene/description.h"
 #include "scene/param_reader.h"

@@ -10,11 +10,11 @@
 
 #include "construct/plugins.h"
 #include "construct/tolerance.h"
-#include "integrators/direct_lighting.h"
-#include "integrators/light_selection.h"
-#include "integrators/path.h"
-#include "integrators/vol_path.h"
-#include "integrators/whitted.h"
+#include "integrators/direct/direct_lighting.h"
+#include "integrators/direct/whitted.h"
+#include "integrators/path/path.h"
+#include "integrators/path/vol_path.h"
+#include "lighting/light_strategy.h"
 #include "scene/param_reader.h"
 
 namespace pbrtmedia {

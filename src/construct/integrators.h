@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "base/bounds.h"
-#include "integrators/camera_medium.h"
-#include "integrators/integrator.h"
-#include "integrators/scene.h"
+#include "render/integrator.h"
 #include "scene/description.h"
+#include "world/camera_medium.h"
+#include "world/scene.h"
 
 namespace pbrtmedia {
 

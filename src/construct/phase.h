@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "media/phase_params.h"
+#include "media/phase/phase_params.h"
 #include "scene/param_reader.h"
 
 namespace pbrtmedia {

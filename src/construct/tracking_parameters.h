@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/parameters.h"
 #include "scene/param_reader.h"
-#include "transmittance/parameters.h"
 #include "transmittance/traits.h"
 
 namespace pbrtmedia {

@@ -12,9 +12,9 @@
 #include "construct/media.h"
 #include "construct/shapes.h"
 #include "construct/textures.h"
-#include "integrators/camera_medium.h"
-#include "integrators/scene_builder.h"
 #include "scene/description.h"
+#include "world/camera_medium.h"
+#include "world/scene_builder.h"
 
 namespace pbrtmedia {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "freeflight/any_sampler.h"
 
+#include "base/variant_names.h"
 #include "freeflight/sampler_list.h"
-#include "transmittance/variant_names.h"
 
 namespace pbrtmedia {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/parameters.h"
 #include "freeflight/sampler_traits.h"
-#include "transmittance/parameters.h"
 
 namespace pbrtmedia {
 

@@ -11,7 +11,7 @@
 #include "freeflight/flight_sample.h"
 #include "freeflight/null_collisions.h"
 #include "freeflight/sampler_traits.h"
-#include "transmittance/channel_shares.h"
+#include "transmittance/parts/channel_shares.h"
 
 namespace pbrtmedia {
 

@@ -8,13 +8,13 @@
 #include <string_view>
 #include <tuple>
 
+#include "base/parameters.h"
 #include "base/rng.h"
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 #include "freeflight/inverted_depth.h"
 #include "freeflight/sampler_traits.h"
-#include "transmittance/parameters.h"
 
 namespace pbrtmedia {
 

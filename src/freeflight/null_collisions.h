@@ -8,8 +8,8 @@
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
-#include "transmittance/bounded_lookup.h"
-#include "transmittance/channel_shares.h"
+#include "transmittance/parts/bounded_lookup.h"
+#include "transmittance/parts/channel_shares.h"
 
 namespace pbrtmedia {
 

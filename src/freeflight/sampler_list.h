@@ -18,7 +18,7 @@ namespace pbrtmedia {
 
 /// The one list of free-flight samplers. A new one is its header and one word here. The first is the default.
 ///
-/// A sampler is a small immutable value: kName, traits(), parameters() (transmittance/parameters.h), and
+/// A sampler is a small immutable value: kName, traits(), parameters() (base/parameters.h), and
 ///   template <DensityLine Line, std::size_t N>
 ///   FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const;
 /// whose weights are those of the flight times the importance of the channels.

@@ -7,14 +7,14 @@
 #include <string_view>
 #include <tuple>
 
+#include "base/parameters.h"
 #include "base/rng.h"
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 #include "freeflight/null_collisions.h"
 #include "freeflight/sampler_traits.h"
-#include "transmittance/channel_shares.h"
-#include "transmittance/parameters.h"
+#include "transmittance/parts/channel_shares.h"
 
 namespace pbrtmedia {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "integrators/scene.h"
 #include "media/bounds_cache.h"
+#include "world/scene.h"
 
 namespace pbrtmedia {
 

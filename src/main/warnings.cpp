@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "integrators/media_faults.h"
+#include "world/media_faults.h"
 
 #include "base/stop_signal.h"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "integrators/render_loop.h"
-#include "integrators/scene.h"
 #include "main/options.h"
+#include "render/render_loop.h"
+#include "world/scene.h"
 
 namespace pbrtmedia {
 

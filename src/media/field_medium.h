@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "media/density_kernel.h"
-#include "media/field_emission.h"
+#include "media/emission/field_emission.h"
 #include "media/field_medium_params.h"
 #include "media/medium.h"
 

@@ -6,7 +6,7 @@
 
 #include "freeflight/any_sampler.h"
 #include "media/bounds_params.h"
-#include "media/emission_pattern.h"
+#include "media/emission/emission_pattern.h"
 #include "media/medium_params.h"
 #include "transmittance/any_estimator.h"
 #include "transmittance/sampling_pattern.h"

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "freeflight/inverted_depth.h"
-#include "media/box_emission.h"
 #include "media/coefficients.h"
-#include "media/emission_distance.h"
+#include "media/emission/box_emission.h"
+#include "media/emission/emission_distance.h"
 #include "media/rgb_channels.h"
 
 namespace pbrtmedia {

@@ -14,8 +14,8 @@
 #include "base/statistics.h"
 #include "fields/exploration.h"
 #include "fields/learned_bounds.h"
-#include "media/emission_volume.h"
-#include "media/phase_function.h"
+#include "media/emission/emission_volume.h"
+#include "media/phase/phase_function.h"
 #include "spectrum/rgb.h"
 
 namespace pbrtmedia {

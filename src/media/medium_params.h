@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "media/medium.h"
-#include "media/phase_params.h"
+#include "media/phase/phase_params.h"
 #include "spectrum/rgb.h"
 
 namespace pbrtmedia {

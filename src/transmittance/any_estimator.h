@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/parameters.h"
 #include "transmittance/law.h"
-#include "transmittance/parameters.h"
 #include "transmittance/traits.h"
 
 namespace pbrtmedia {

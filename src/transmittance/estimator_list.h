@@ -5,12 +5,12 @@
 #include <utility>
 #include <variant>
 
+#include "base/variant_names.h"
 #include "transmittance/any_estimator.h"
 #include "transmittance/any_exponential_estimator.h"
-#include "transmittance/gamma.h"
-#include "transmittance/pink_p_cumulative.h"
-#include "transmittance/taylor_pink_noise.h"
-#include "transmittance/variant_names.h"
+#include "transmittance/estimators/gamma.h"
+#include "transmittance/estimators/pink_p_cumulative.h"
+#include "transmittance/estimators/taylor_pink_noise.h"
 
 namespace pbrtmedia {
 

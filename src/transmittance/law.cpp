@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "transmittance/law.h"
 
-#include "transmittance/variant_names.h"
+#include "base/variant_names.h"
 
 namespace pbrtmedia {
 

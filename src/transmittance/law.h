@@ -7,12 +7,12 @@
 #include <variant>
 #include <vector>
 
-#include "transmittance/davis_law.h"
-#include "transmittance/exponential_law.h"
-#include "transmittance/linear_law.h"
-#include "transmittance/mixture_law.h"
-#include "transmittance/parameters.h"
-#include "transmittance/pink_noise_law.h"
+#include "base/parameters.h"
+#include "transmittance/laws/davis_law.h"
+#include "transmittance/laws/exponential_law.h"
+#include "transmittance/laws/linear_law.h"
+#include "transmittance/laws/mixture_law.h"
+#include "transmittance/laws/pink_noise_law.h"
 
 namespace pbrtmedia {
 

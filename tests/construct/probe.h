@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "construct/attempt.h"
-#include "integrators/render_loop.h"
+#include "render/render_loop.h"
 
 // What constructed objects do, as lists of numbers: two scenes that differ in one parameter must differ here.
 namespace pbrtmedia::test {

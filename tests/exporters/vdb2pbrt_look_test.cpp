@@ -6,7 +6,7 @@
 
 #include "construct/attempt.h"
 #include "exporters/vdb_samples.h"
-#include "integrators/render_loop.h"
+#include "render/render_loop.h"
 #include "spectrum/spectrum.h"
 #include "support/render_scene.h"
 #include "support/temporary_folder.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "integrators/direct_lighting.h"
+#include "integrators/direct/direct_lighting.h"
 
 #include <gtest/gtest.h>
 
-#include "integrators/specular_recursion.h"
-#include "integrators/whitted.h"
+#include "integrators/direct/specular_recursion.h"
+#include "integrators/direct/whitted.h"
 #include "materials/glass.h"
 #include "materials/mirror.h"
-#include "scene_kit.h"
+#include "support/scene_kit.h"
 
 namespace pbrtmedia {
 namespace {

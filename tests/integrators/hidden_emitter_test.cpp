@@ -9,13 +9,13 @@
 #include <string>
 
 #include "base/warp.h"
-#include "integrators/direct_lighting.h"
-#include "integrators/line_walk.h"
-#include "integrators/whitted.h"
+#include "integrators/direct/direct_lighting.h"
+#include "integrators/direct/whitted.h"
 #include "materials/mirror.h"
-#include "scene_kit.h"
 #include "shapes/cylinder.h"
 #include "shapes/disk.h"
+#include "support/scene_kit.h"
+#include "world/line_walk.h"
 
 namespace pbrtmedia {
 namespace {

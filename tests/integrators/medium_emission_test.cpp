@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 
-#include "integrators/medium_light.h"
-#include "media/emission_patterns.h"
+#include "media/emission/emission_patterns.h"
 #include "media/grid_medium.h"
-#include "scene_kit.h"
 #include "spectrum/spectrum.h"
+#include "support/scene_kit.h"
+#include "world/medium_light.h"
 
 namespace pbrtmedia {
 namespace {

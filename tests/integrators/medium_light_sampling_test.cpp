@@ -6,11 +6,11 @@
 #include <cmath>
 #include <functional>
 
-#include "integrators/position_lights.h"
+#include "lighting/position_lights.h"
 #include "lights/projection.h"
 #include "lights/spot.h"
 #include "media/grid_medium.h"
-#include "scene_kit.h"
+#include "support/scene_kit.h"
 
 namespace pbrtmedia {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "integrators/path.h"
+#include "integrators/path/path.h"
 
 #include <gtest/gtest.h>
 
-#include "scene_kit.h"
+#include "support/scene_kit.h"
 
 namespace pbrtmedia {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "integrators/vol_path.h"
+#include "integrators/path/vol_path.h"
 
 #include <gtest/gtest.h>
 
 #include "media/grid_medium.h"
-#include "scene_kit.h"
+#include "support/scene_kit.h"
 
 namespace pbrtmedia {
 namespace {

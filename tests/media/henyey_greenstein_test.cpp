@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "media/henyey_greenstein.h"
+#include "media/phase/henyey_greenstein.h"
 
 #include <gtest/gtest.h>
 

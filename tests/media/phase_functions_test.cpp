@@ -6,9 +6,9 @@
 
 #include "base/diagnostics.h"
 #include "base/rng.h"
-#include "media/phase_mixture.h"
-#include "media/phase_params.h"
-#include "media/rayleigh.h"
+#include "media/phase/phase_mixture.h"
+#include "media/phase/phase_params.h"
+#include "media/phase/rayleigh.h"
 #include "support/function_line.h"
 #include "support/statistics.h"
 

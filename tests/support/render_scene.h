@@ -14,7 +14,7 @@
 #include "base/parallel.h"
 #include "construct/construct.h"
 #include "image/image.h"
-#include "integrators/render_loop.h"
+#include "render/render_loop.h"
 #include "scene/parser.h"
 #include "support/running_stats.h"
 #include "support/source_dir.h"

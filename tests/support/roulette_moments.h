@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "transmittance/order_roulette.h"
+#include "transmittance/parts/order_roulette.h"
 
 namespace pbrtmedia::test {
 

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "tools/imgtool_assemble.h"
+#include "tools/imgtool/assemble.h"
 
 namespace pbrtmedia {
 namespace {

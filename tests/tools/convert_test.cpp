@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "tools/imgtool_convert.h"
+#include "tools/imgtool/convert.h"
 
 namespace pbrtmedia {
 namespace {

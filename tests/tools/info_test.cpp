@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tools/imgtool_info.h"
+#include "tools/imgtool/info.h"
 
 namespace pbrtmedia {
 namespace {

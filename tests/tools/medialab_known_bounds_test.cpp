@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/medialab_trials.h"
+#include "tools/medialab/trials.h"
 
 namespace pbrtmedia {
 namespace {

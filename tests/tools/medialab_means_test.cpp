@@ -8,8 +8,8 @@
 
 #include "base/hash.h"
 #include "base/parallel.h"
-#include "tools/medialab_trials.h"
-#include "tools/medialab_verdict.h"
+#include "tools/medialab/trials.h"
+#include "tools/medialab/verdict.h"
 
 namespace pbrtmedia {
 namespace {

@@ -11,14 +11,14 @@
 
 #include "base/rng.h"
 #include "support/statistics.h"
-#include "tools/medialab_canvas.h"
-#include "tools/medialab_fit.h"
-#include "tools/medialab_heatmap_picture.h"
-#include "tools/medialab_isolated.h"
-#include "tools/medialab_moments.h"
-#include "tools/medialab_session.h"
-#include "tools/medialab_stress_cases.h"
-#include "tools/medialab_verdict.h"
+#include "tools/medialab/canvas.h"
+#include "tools/medialab/fit.h"
+#include "tools/medialab/heatmap_picture.h"
+#include "tools/medialab/isolated.h"
+#include "tools/medialab/moments.h"
+#include "tools/medialab/session.h"
+#include "tools/medialab/stress_cases.h"
+#include "tools/medialab/verdict.h"
 
 namespace pbrtmedia {
 namespace {

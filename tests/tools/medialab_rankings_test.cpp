@@ -12,7 +12,7 @@
 
 #include "base/hash.h"
 #include "base/parallel.h"
-#include "tools/medialab_problems.h"
+#include "tools/medialab/problems.h"
 
 namespace pbrtmedia {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "tools/imgtool_merge.h"
+#include "tools/imgtool/merge.h"
 
 namespace pbrtmedia {
 namespace {

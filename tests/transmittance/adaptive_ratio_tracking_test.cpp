@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/adaptive_ratio_tracking.h"
+#include "transmittance/estimators/adaptive_ratio_tracking.h"
 
 #include <gtest/gtest.h>
 
 #include "tracking_cases.h"
-#include "transmittance/ratio_tracking.h"
+#include "transmittance/estimators/ratio_tracking.h"
 
 namespace pbrtmedia {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/bhanot_kennedy.h"
+#include "transmittance/estimators/bhanot_kennedy.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include "support/roulette_moments.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
-#include "transmittance/p_series_cmf.h"
-#include "transmittance/p_series_cumulative.h"
-#include "transmittance/u_bk.h"
+#include "transmittance/estimators/p_series_cmf.h"
+#include "transmittance/estimators/p_series_cumulative.h"
+#include "transmittance/estimators/u_bk.h"
 
 namespace pbrtmedia {
 namespace {

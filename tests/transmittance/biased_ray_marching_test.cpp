@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/biased_ray_marching.h"
+#include "transmittance/estimators/biased_ray_marching.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include "support/function_line.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
-#include "transmittance/ray_marching.h"
-#include "transmittance/two_comb_umvu.h"
+#include "transmittance/estimators/ray_marching.h"
+#include "transmittance/estimators/two_comb_umvu.h"
 
 namespace pbrtmedia {
 namespace {

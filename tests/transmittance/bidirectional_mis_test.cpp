@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/bidirectional_mis.h"
+#include "transmittance/estimators/bidirectional_mis.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
+#include "transmittance/estimators/unidirectional_mis.h"
 #include "transmittance/series_cases.h"
-#include "transmittance/unidirectional_mis.h"
 
 namespace pbrtmedia {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "transmittance/p_series_cumulative.h"
+#include "transmittance/estimators/p_series_cumulative.h"
 #include "transmittance/series_cases.h"
 #include "transmittance/series_moments.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/comb_integrator.h"
+#include "transmittance/parts/comb_integrator.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include "fields/canonical_line.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
-#include "transmittance/debiased_ray_marching.h"
-#include "transmittance/prefix_debiased_ray_marching.h"
+#include "transmittance/estimators/debiased_ray_marching.h"
+#include "transmittance/estimators/prefix_debiased_ray_marching.h"
 
 namespace pbrtmedia {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/debiased_ray_marching.h"
+#include "transmittance/estimators/debiased_ray_marching.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "support/function_line.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
-#include "transmittance/prefix_debiased_ray_marching.h"
+#include "transmittance/estimators/prefix_debiased_ray_marching.h"
 
 namespace pbrtmedia {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/gamma.h"
+#include "transmittance/estimators/gamma.h"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include "support/contract_line.h"
 #include "support/function_line.h"
 #include "support/run_estimator.h"
-#include "transmittance/regular_tracking.h"
+#include "transmittance/estimators/regular_tracking.h"
 
 namespace pbrtmedia {
 namespace {

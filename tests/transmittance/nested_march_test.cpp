@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/nested_march.h"
+#include "transmittance/parts/nested_march.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // The estimators that add up along one walk: next-flight and unidirectional MIS.
-#include "transmittance/next_flight.h"
+#include "transmittance/estimators/next_flight.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "transmittance/estimators/unidirectional_mis.h"
 #include "transmittance/series_cases.h"
 #include "transmittance/series_moments.h"
-#include "transmittance/unidirectional_mis.h"
 
 namespace pbrtmedia {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/order_roulette.h"
+#include "transmittance/parts/order_roulette.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "support/printed.h"
 #include "support/statistics.h"
-#include "transmittance/comb_size.h"
+#include "transmittance/parts/comb_size.h"
 
 namespace pbrtmedia {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/p_series_ratio.h"
+#include "transmittance/estimators/p_series_ratio.h"
 
 #include <gtest/gtest.h>
 
 #include "tracking_cases.h"
-#include "transmittance/p_series_residual.h"
-#include "transmittance/ratio_tracking.h"
-#include "transmittance/residual_ratio_tracking.h"
+#include "transmittance/estimators/p_series_residual.h"
+#include "transmittance/estimators/ratio_tracking.h"
+#include "transmittance/estimators/residual_ratio_tracking.h"
 
 namespace pbrtmedia {
 namespace {

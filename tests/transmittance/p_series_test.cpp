@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "support/control_moments.h"
-#include "transmittance/p_series_cmf.h"
-#include "transmittance/p_series_cumulative.h"
-#include "transmittance/p_series_next_flight.h"
+#include "transmittance/estimators/p_series_cmf.h"
+#include "transmittance/estimators/p_series_cumulative.h"
+#include "transmittance/estimators/p_series_next_flight.h"
 #include "transmittance/series_cases.h"
 #include "transmittance/series_moments.h"
 

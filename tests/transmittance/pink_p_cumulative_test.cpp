@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/pink_p_cumulative.h"
+#include "transmittance/estimators/pink_p_cumulative.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "support/contract_line.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
-#include "transmittance/p_series_cumulative.h"
+#include "transmittance/estimators/p_series_cumulative.h"
 
 namespace pbrtmedia {
 namespace {

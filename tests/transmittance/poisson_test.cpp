@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/poisson.h"
+#include "transmittance/parts/poisson.h"
 
 #include <gtest/gtest.h>
 

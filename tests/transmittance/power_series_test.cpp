@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/power_series.h"
+#include "transmittance/parts/power_series.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "support/printed.h"
 #include "support/roulette_moments.h"
 #include "support/statistics.h"
-#include "transmittance/scaled_double.h"
+#include "transmittance/parts/scaled_double.h"
 
 namespace pbrtmedia {
 namespace {

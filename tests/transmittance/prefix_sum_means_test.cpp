@@ -3,8 +3,8 @@
 // too low to loose.
 #include <gtest/gtest.h>
 
-#include "transmittance/bidirectional_mis.h"
-#include "transmittance/p_series_cumulative.h"
+#include "transmittance/estimators/bidirectional_mis.h"
+#include "transmittance/estimators/p_series_cumulative.h"
 #include "transmittance/series_cases.h"
 #include "transmittance/series_moments.h"
 

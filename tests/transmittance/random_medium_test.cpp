@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/random_medium.h"
+#include "transmittance/estimators/random_medium.h"
 
 #include <gtest/gtest.h>
 
 #include "tracking_cases.h"
-#include "transmittance/residual_ratio_tracking.h"
+#include "transmittance/estimators/residual_ratio_tracking.h"
 
 namespace pbrtmedia {
 namespace {

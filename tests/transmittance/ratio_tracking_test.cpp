@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/ratio_tracking.h"
+#include "transmittance/estimators/ratio_tracking.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/regular_tracking.h"
+#include "transmittance/estimators/regular_tracking.h"
 
 #include <gtest/gtest.h>
 

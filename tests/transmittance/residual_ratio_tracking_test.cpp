@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/residual_ratio_tracking.h"
+#include "transmittance/estimators/residual_ratio_tracking.h"
 
 #include <gtest/gtest.h>
 
 #include "tracking_cases.h"
-#include "transmittance/ratio_tracking.h"
-#include "transmittance/residual_track_length.h"
+#include "transmittance/estimators/ratio_tracking.h"
+#include "transmittance/estimators/residual_track_length.h"
 
 namespace pbrtmedia {
 namespace {

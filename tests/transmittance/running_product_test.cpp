@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/running_product.h"
+#include "transmittance/parts/running_product.h"
 
 #include <gtest/gtest.h>
 

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "support/control_moments.h"
-#include "transmittance/next_flight.h"
-#include "transmittance/p_series_cmf.h"
-#include "transmittance/p_series_next_flight.h"
-#include "transmittance/poisson.h"
+#include "transmittance/estimators/next_flight.h"
+#include "transmittance/estimators/p_series_cmf.h"
+#include "transmittance/estimators/p_series_next_flight.h"
+#include "transmittance/estimators/unidirectional_mis.h"
+#include "transmittance/parts/poisson.h"
 #include "transmittance/series_cases.h"
-#include "transmittance/unidirectional_mis.h"
 
 // Closed forms of the prefix-sum estimators, straight from their definitions.
 namespace pbrtmedia::test {

@@ -5,15 +5,15 @@
 
 #include <cmath>
 
-#include "transmittance/bidirectional_mis.h"
-#include "transmittance/next_flight.h"
-#include "transmittance/p_series_cmf.h"
-#include "transmittance/p_series_cumulative.h"
-#include "transmittance/p_series_next_flight.h"
-#include "transmittance/p_series_ratio.h"
-#include "transmittance/ratio_tracking.h"
+#include "transmittance/estimators/bidirectional_mis.h"
+#include "transmittance/estimators/next_flight.h"
+#include "transmittance/estimators/p_series_cmf.h"
+#include "transmittance/estimators/p_series_cumulative.h"
+#include "transmittance/estimators/p_series_next_flight.h"
+#include "transmittance/estimators/p_series_ratio.h"
+#include "transmittance/estimators/ratio_tracking.h"
+#include "transmittance/estimators/unidirectional_mis.h"
 #include "transmittance/series_cases.h"
-#include "transmittance/unidirectional_mis.h"
 
 namespace pbrtmedia {
 namespace {

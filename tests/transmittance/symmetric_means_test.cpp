@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/symmetric_means.h"
+#include "transmittance/parts/symmetric_means.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/taylor_pink_noise.h"
+#include "transmittance/estimators/taylor_pink_noise.h"
 
 #include <gtest/gtest.h>
 

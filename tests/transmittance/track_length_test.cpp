@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/track_length.h"
+#include "transmittance/estimators/track_length.h"
 
 #include <gtest/gtest.h>
 
 #include "tracking_cases.h"
-#include "transmittance/johnson.h"
+#include "transmittance/estimators/johnson.h"
 
 namespace pbrtmedia {
 namespace {

@@ -3,15 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "tracking_cases.h"
-#include "transmittance/adaptive_ratio_tracking.h"
-#include "transmittance/johnson.h"
-#include "transmittance/p_series_ratio.h"
-#include "transmittance/p_series_residual.h"
-#include "transmittance/random_medium.h"
-#include "transmittance/ratio_tracking.h"
-#include "transmittance/residual_ratio_tracking.h"
-#include "transmittance/residual_track_length.h"
-#include "transmittance/track_length.h"
+#include "transmittance/estimators/adaptive_ratio_tracking.h"
+#include "transmittance/estimators/johnson.h"
+#include "transmittance/estimators/p_series_ratio.h"
+#include "transmittance/estimators/p_series_residual.h"
+#include "transmittance/estimators/random_medium.h"
+#include "transmittance/estimators/ratio_tracking.h"
+#include "transmittance/estimators/residual_ratio_tracking.h"
+#include "transmittance/estimators/residual_track_length.h"
+#include "transmittance/estimators/track_length.h"
 
 namespace pbrtmedia {
 namespace {

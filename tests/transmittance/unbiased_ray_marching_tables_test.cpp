@@ -14,8 +14,8 @@
 #include "support/printed.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
-#include "transmittance/biased_ray_marching.h"
-#include "transmittance/unbiased_ray_marching.h"
+#include "transmittance/estimators/biased_ray_marching.h"
+#include "transmittance/estimators/unbiased_ray_marching.h"
 
 namespace pbrtmedia {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "transmittance/unbiased_ray_marching.h"
+#include "transmittance/estimators/unbiased_ray_marching.h"
 
 #include <gtest/gtest.h>
 

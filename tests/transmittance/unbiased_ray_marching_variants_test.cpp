@@ -10,7 +10,7 @@
 #include "fields/canonical_line.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
-#include "transmittance/unbiased_ray_marching.h"
+#include "transmittance/estimators/unbiased_ray_marching.h"
 
 namespace pbrtmedia {
 namespace {

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "integrators/path/path.h"
+
+#include <glog/logging.h>
+
+#include "integrators/path/path_tracer.h"
+
+namespace pbrtmedia {
+
+PathIntegrator::PathIntegrator(const Scene& scene, const PathParams& params,
+                               std::unique_ptr<const LightSelector> selector)
+    : scene_(scene), params_(params), selector_(std::move(selector)) {
+  CHECK(selector_ || scene.lights().empty()) << "lights need a selector";
+}
+PathIntegrator::~PathIntegrator() = default;
+
+Rgb PathIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
+  const PathSetup setup{scene_, params_, scene_.lights(), selector_.get(), nullptr, nullptr, false};
+  return PathTracer(setup, ray, MediumState(), context).trace();
+}
+
+}  // namespace pbrtmedia

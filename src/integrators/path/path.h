@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "lighting/light_selector.h"
+#include "render/integrator.h"
+#include "world/scene.h"
+
+namespace pbrtmedia {
+
+/// Which points of a medium take light samples of lights that shine from one point.
+enum class MediumLightSampling {
+  Auto,         ///< for each stretch and light the first or the second of these, by an estimate of the noise
+  Collision,    ///< where the path collides
+  Equiangular,  ///< on every stretch in a medium a distance with density proportional to 1/r² from the light
+  Mis,          ///< both, by multiple importance sampling
+};
+
+/// How a path shares the work among channels that a medium treats differently.
+enum class ChannelSampling {
+  Auto,    ///< Shared, but Split where extinctions differ widely
+  Shared,  ///< one path for all channels, by multiple importance sampling over them
+  Split    ///< a path for each from where it first meets such a medium
+};
+
+/// Parameters that `path` and `volpath` share (scene-language reference 11.1, 11.2).
+struct PathParams {
+  int maxDepth = 5;                             ///< scattering vertices of a path; 0: visible emission only
+  float rrThreshold = 1;                        ///< roulette is played on throughputs below it; 0: never
+  std::string lightSampleStrategy = "spatial";  ///< uniform, power or spatial; for whoever makes the selector
+  MediumLightSampling mediumLightSampling = MediumLightSampling::Auto;  ///< `volpath` only
+  ChannelSampling channelSampling = ChannelSampling::Auto;              ///< `volpath` only
+};
+
+/// Integrator `path`: unidirectional path tracing over surfaces, next-event estimation and multiple
+/// importance sampling. Ignores media; surfaces without material neither scatter nor block. Unbiased.
+class PathIntegrator final : public Integrator {
+ public:
+  /// `selector` may be null when the scene has no lights.
+  PathIntegrator(const Scene& scene, const PathParams& params, std::unique_ptr<const LightSelector> selector);
+  ~PathIntegrator() override;
+  std::string_view typeName() const override { return "path"; }
+  Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
+
+ private:
+  const Scene& scene_;
+  PathParams params_;
+  std::unique_ptr<const LightSelector> selector_;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "integrators/path/path_tracer.h"
+
+#include "base/interruption.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// PBRT-v3's roulette: from this bounce on, with at least this chance of ending (scene-language
+/// reference 11.2).
+constexpr int kRouletteBounces = 3;
+constexpr float kLeastTermination = 0.05f;
+/// In media, paths of less weight than this are already thinned out before that bounce. What is left of such
+/// a path has little part in the variance, and an absorbing medium costs hardly more than two scatterings.
+constexpr float kMediumRouletteWeight = 0.03f;
+
+/// Channels whose extinctions differ by more than this factor are followed one by one. Three paths cost 2 to
+/// 2.6 times one; the variance of one reaches that at factors of 2.5 to 4 (cubes of optical depth 2 to 40).
+constexpr float kSplitFactor = 3;
+
+/// After so many scatterings in one place free flights are far shorter than coordinates can tell (were they
+/// as long as a hundredth of that, one in 1e50 would stay): the path would scatter there for ever.
+constexpr int kMostBouncesInPlace = 1024;
+
+BoundaryPlane planeAt(const SurfaceInteraction& si, Vector3f toward) {
+  return {true, si.p, faceForward(si.n, toward)};
+}
+
+/// Whether sampling the BSDF reaches every direction in which it scatters. With a shading normal, or glossy
+/// lobes, some can be reached by light samples only.
+bool samplingCoversBsdf(const Bsdf& bsdf, const SurfaceInteraction& si) {
+  constexpr BsdfFlags kDiffuse = BsdfFlags::Diffuse | BsdfFlags::Reflection | BsdfFlags::Transmission;
+  return bsdf.count(kDiffuse) == bsdf.count() && bsdf.shadingNormal() == si.n;
+}
+
+}  // namespace
+
+PathTracer::PathTracer(const PathSetup& setup, const RayDifferential& ray, const MediumState& start,
+                       SampleContext& context)
+    : setup_(setup),
+      context_(context),
+      samples_(context),
+      counters_(context.counters),
+      ray_(ray),
+      state_(start) {}
+
+Rgb PathTracer::trace() { return finish(travel()); }
+
+Rgb PathTracer::finish(Event event) {
+  for (;; event = travel()) {
+    switch (event) {
+      case Event::End:
+        return radiance_;
+      case Event::Surface:
+        if (!scatterOnSurface()) return radiance_;
+        break;
+      case Event::Medium:
+        if (!scatterInMedium()) return radiance_;
+        break;
+    }
+  }
+}
+
+/// Follows the ray through boundaries without material to the next scattering event, and collects what emits
+/// on the way. Crossings cost no depth and no roulette.
+PathTracer::Event PathTracer::travel() {
+  if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters() && !setup_.mediaEmit) return Event::End;
+  const bool isFromCamera = bounces_ == 0;
+  Travel way{
+      isFromCamera ? LineWalk::fromCamera(setup_.scene, ray_) : LineWalk(setup_.scene, ray_, rayStart_),
+      startPlane_};
+  return travelOn(way);
+}
+
+PathTracer::Event PathTracer::travelOn(Travel& way) {
+  LineWalk& walk = way.walk;
+  BoundaryPlane& start = way.start;
+  double& t = way.t;
+  const auto fits = [&](const SceneHit& h) {
+    return !setup_.media || setup_.media->fits(state_, h, setup_.scene.surface(h, ray_), ray_.d);
+  };
+  for (;;) {
+    leaveIfAbandoned();
+    const std::optional<SceneHit> nearest = walk.peek(counters_.rays);
+    const double tEnd = nearest ? std::max<double>(t, nearest->t()) : kInfinity;
+    if (!nearest && setup_.media) setup_.media->escape(state_, counters_);
+    if (seesOnlyEmission()) {
+      const bool blocked = nearest && nearest->primitive->material && !nearest->isEmitter();
+      if (blocked || (!nearest && setup_.scene.infiniteLights().empty())) {
+        if (setup_.mediaEmit) collectMediumEmission(t, tEnd);
+        return Event::End;
+      }
+    }
+    if (!state_.isVacuum()) {
+      Event event = Event::End;
+      if (!passMedium(way, tEnd, nearest ? &*nearest : nullptr, event)) return event;
+    }
+    const std::optional<SceneHit> hit = walk.next(counters_.rays, fits);
+    if (!hit) {
+      collectBackground();
+      return Event::End;
+    }
+    const bool scatters = hit->primitive->material != nullptr;
+    if (scatters || hit->isEmitter() || setup_.media) {
+      const SurfaceInteraction si = surfaceAt(*hit);
+      if (hit->isEmitter()) collectEmission(way, *hit, si);
+      if (scatters) {
+        if (seesOnlyEmission()) return Event::End;
+        surface_ = {*hit, si, {}};
+        if (setup_.media && setup_.scene.hasMediumBoundaries()) {
+          surface_.coincident = walk.coincidentWith(*hit, si, counters_.rays);
+        }
+        return Event::Surface;
+      }
+      if (setup_.media) {
+        setup_.media->cross(state_, *hit, si, ray_.d, counters_, context_.mismatches);
+        start = planeAt(si, ray_.d);
+      }
+    }
+    t = tEnd;
+  }
+}
+
+/// The media between two surfaces. True: the path passes. False: `event` tells whether it scatters or ends.
+bool PathTracer::passMedium(const Travel& way, double tMax, const SceneHit* hit, Event& event) {
+  if (!seesOnlyEmission() && splitsChannels()) {
+    followChannels(way);
+    event = Event::End;
+    return false;
+  }
+  const double tMin = way.t;
+  const BoundaryPlane& start = way.start;
+  if (setup_.mediaEmit) collectMediumEmission(tMin, tMax);
+  if (seesOnlyEmission()) {
+    beta_ *= MediaTracker::transmittance(state_, ray_, tMin, tMax, context_.rng, counters_);
+    return !beta_.isBlack();
+  }
+  std::optional<double> extinction;
+  // Under another law, what a stretch scatters is not extinction times transmittance.
+  const bool lightsStretch = setup_.positionLights && MediaTracker::isExponential(state_);
+  if (lightsStretch) {
+    // Media of nothing take no sample: their boundaries leave the image as it is, bit for bit.
+    const double mean = MediaTracker::meanExtinction(state_, ray_, tMin, tMax);
+    if (setup_.params.mediumLightSampling == MediumLightSampling::Auto) extinction = mean;
+    if (mean > 0) lightStretch({ray_, tMin, tMax, extinction}, hit, start);
+  }
+  const MediumFlight flight =
+      MediaTracker::sampleFreeFlight(state_, ray_, tMin, tMax, beta_, context_.rng, counters_);
+  beta_ *= flight.weight;
+  if (beta_.isBlack()) return false;
+  // A path that media have dimmed on its way has little part in the variance. What is seen directly stays
+  // exact.
+  if (!flight.collided) return !(flight.weight.max() < 1) || bounces_ == 0 || playRoulette(/*inMedium=*/true);
+  medium_ = {
+      mediumPoint(flight.t, tMax, hit, start), flight.phase, flight.t, tMin, tMax, extinction, lightsStretch};
+  if (!isFinite(medium_.p)) return false;  // beyond what coordinates can tell: nothing is out there
+  event = Event::Medium;
+  return false;
+}
+
+/// Whether from here on each channel is better followed alone: a path that all share weighs them by the mean
+/// of their densities, and in each the weights vary the more the further apart extinctions are.
+bool PathTracer::splitsChannels() const {
+  if (setup_.params.channelSampling == ChannelSampling::Shared) return false;
+  if ((beta_.r != 0) + (beta_.g != 0) + (beta_.b != 0) < 2) return false;
+  const float factor = setup_.params.channelSampling == ChannelSampling::Split ? 1 : kSplitFactor;
+  for (std::size_t i = 0; i < state_.activeCount(); ++i) {
+    const Rgb sigmaT = state_.active(i).medium->sigmaT();
+    float least = kInfinity, most = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (beta_[c] == 0) continue;
+      least = std::min(least, sigmaT[c]);
+      most = std::max(most, sigmaT[c]);
+    }
+    if (most > factor * least) return true;
+  }
+  return false;
+}
+
+/// The rest of the path once for each channel. A channel alone is what free flights choose distances for, as
+/// they are told its throughput.
+void PathTracer::followChannels(const Travel& way) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (beta_[c] == 0) continue;
+    PathTracer one(*this);
+    one.radiance_ = Rgb();
+    one.beta_ = Rgb();
+    one.beta_[c] = beta_[c];
+    Travel rest{LineWalk(way.walk, one.ray_), way.start, way.t, way.passedEmitters};
+    radiance_ += one.finish(one.travelOn(rest));
+  }
+}
+
+/// The point at `t` of a stretch that ends at tMax with `hit`, on the right side of the boundaries.
+Point3f PathTracer::mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start) {
+  BoundaryPlane end;
+  if (hit && tMax - t < MediaTracker::kNearBoundary * (tMax + maxComponent(abs(ray_.o)))) {
+    end = planeAt(setup_.scene.surface(*hit, ray_), -ray_.d);
+  }
+  return MediaTracker::scatterPoint(ray_, t, start, end, counters_);
+}
+
+SurfaceInteraction PathTracer::surfaceAt(const SceneHit& hit) const {
+  SurfaceInteraction si = setup_.scene.surface(hit, ray_);
+  if (ray_.hasDifferentials && hit.primitive->material) si.computeDifferentials(ray_);
+  return si;
+}
+
+bool PathTracer::scatterOnSurface() {
+  ++counters_.surfaceScatterings;
+  samples_.startVertex(bounces_);
+  SurfaceInteraction& si = surface_.si;
+  const Bsdf bsdf = surface_.hit.primitive->material->bsdf(si, /*mergeSpecular=*/true);
+  ownsUniformLights_ = samplingCoversBsdf(bsdf, si);
+  if (bsdf.count(BsdfFlags::AllButSpecular) > 0) lightSurface(bsdf);
+
+  const BsdfSample sample = bsdf.sample(si.wo, samples_.get2D());
+  if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
+  beta_ *= sample.f * (absDot(sample.wi, bsdf.shadingNormal()) / sample.pdf);
+  if (beta_.isBlack()) return false;
+  isDirect_ = any(sample.flags & BsdfFlags::Specular);
+  directionPdf_ = sample.pdf;
+  if (isDirect_ && any(sample.flags & BsdfFlags::Transmission) &&
+      dot(sample.wi, si.n) * dot(si.wo, si.n) < 0) {
+    const float eta2 = sqr(bsdf.eta());
+    etaScale_ *= dot(si.wo, si.n) > 0 ? eta2 : 1 / eta2;
+  }
+  ++bounces_;
+  if (setup_.media) {
+    setup_.media->leaveSurface(state_, surface_.hit, si, surface_.coincident, sample.wi, counters_,
+                               context_.mismatches);
+  }
+  startSegment(si.p, sample.wi, planeAt(si, sample.wi),
+               surface_.coincident.startingWith(surface_.hit.hit.id));
+  return playRoulette(/*inMedium=*/false);
+}
+
+bool PathTracer::scatterInMedium() {
+  ++counters_.mediumScatterings;
+  bouncesInPlace_ = medium_.p == ray_.o ? bouncesInPlace_ + 1 : 0;
+  if (bouncesInPlace_ > kMostBouncesInPlace) {
+    ++counters_.stuckPaths;
+    return false;
+  }
+  samples_.startVertex(bounces_);
+  // A phase function samples a uniform light perfectly, but not what dims it on the way: where light sampling
+  // adds a second, independent look through the medium, it pays (variance and time change by like factors).
+  ownsUniformLights_ = false;
+  lightMedium();
+  const PhaseFunction::Sample sample = medium_.phase->sample(-ray_.d, samples_.get2D());
+  if (!(sample.value > 0)) return false;
+  isDirect_ = false;
+  directionPdf_ = sample.value;
+  ++bounces_;
+  startSegment(medium_.p, sample.wi, {}, {});
+  return playRoulette(/*inMedium=*/true);
+}
+
+void PathTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, const Exclusions& start) {
+  const float time = ray_.time;
+  ray_ = RayDifferential();
+  ray_.o = o;
+  ray_.d = d;
+  ray_.time = time;
+  startPlane_ = plane;
+  rayStart_ = start;
+}
+
+bool PathTracer::playRoulette(bool inMedium) {
+  const float threshold = setup_.params.rrThreshold;
+  const float weight = std::max(std::abs(beta_.max()), std::abs(beta_.min())) * etaScale_;
+  float survival = 1;
+  if (bounces_ - 1 > kRouletteBounces) {
+    if (weight < threshold) survival = std::min(weight, inMedium ? 1.0f : 1 - kLeastTermination);
+  } else if (inMedium && weight < kMediumRouletteWeight * std::min(threshold, 1.0f)) {
+    survival = weight / kMediumRouletteWeight;
+  }
+  if (survival >= 1) return true;
+  if (context_.rng.uniform() >= survival) return false;
+  beta_ /= survival;
+  return true;
+}
+
+}  // namespace pbrtmedia

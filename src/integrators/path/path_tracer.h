@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "integrators/path/path.h"
+#include "integrators/path/path_samples.h"
+#include "lighting/position_lights.h"
+#include "world/line_walk.h"
+#include "world/media_tracker.h"
+#include "world/visibility.h"
+
+namespace pbrtmedia {
+
+/// What all paths of an integrator share.
+struct PathSetup {
+  const Scene& scene;
+  const PathParams& params;
+  const std::vector<const Light*>& lights;
+  const LightSelector* selector;         ///< of `lights`; null: there are none
+  const MediaTracker* media;             ///< null: media are ignored
+  const PositionLights* positionLights;  ///< those that stretches in media are sampled for; null: none
+  bool mediaEmit;                        ///< some medium may emit
+};
+
+/// One path of `path` or `volpath`, from the camera to its end. Every vertex takes one light sample, and its
+/// continuation is at the same time the other half of direct lighting: what it finds emitting is weighted by
+/// the power heuristic (Veach & Guibas 1995, doi:10.1145/218380.218498). So the last vertex still sends a ray
+/// that looks for emission only, and `maxDepth` counts vertices as in PBRT-v3.
+class PathTracer {
+ public:
+  PathTracer(const PathSetup& setup, const RayDifferential& ray, const MediumState& start,
+             SampleContext& context);
+  /// The estimate of the radiance arriving at the ray's origin. Once.
+  Rgb trace();
+
+ private:
+  struct SurfaceVertex {
+    SceneHit hit;
+    SurfaceInteraction si;
+    CoincidentSurfaces coincident;
+  };
+  struct MediumVertex {
+    Point3f p;
+    const PhaseFunction* phase;
+    double t, tMin, tMax;              ///< on the ray, and the stretch in media that it was sampled on
+    std::optional<double> extinction;  ///< PositionLights::Stretch
+    bool lightsStretch;                ///< lights were sampled for the stretch
+  };
+  enum class Event { End, Surface, Medium };
+
+  /// A free flight between two scattering events, as far as it has come.
+  struct Travel {
+    LineWalk walk;
+    BoundaryPlane start;  ///< of the stretch at hand
+    double t = 0;
+    /// Emitters without material that the ray has met, by PrimitiveId::geometry: the rest of each is hidden.
+    std::vector<std::uint32_t> passedEmitters{};
+  };
+
+  Rgb finish(Event event);
+  // Each path event is one function. Those that return bool tell whether the path goes on.
+  Event travel();
+  Event travelOn(Travel& way);
+  bool passMedium(const Travel& way, double tMax, const SceneHit* hit, Event& event);
+  bool splitsChannels() const;
+  void followChannels(const Travel& way);
+  Point3f mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
+  void lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
+  void collectMediumEmission(double tMin, double tMax);
+  void collectEmission(Travel& way, const SceneHit& hit, const SurfaceInteraction& si);
+  void collectBackground();
+  bool scatterOnSurface();
+  bool scatterInMedium();
+  void lightSurface(const Bsdf& bsdf);
+  void lightMedium();
+  bool playRoulette(bool inMedium);
+
+  struct PickedLight {
+    std::size_t index;
+    float probability;   ///< of the pick
+    LightSample sample;  ///< pdf includes `probability`
+  };
+  std::optional<PickedLight> pickLight(Point3f p, bool scatteringFindsUniformLights);
+  Rgb arriving(const PickedLight& light, Point3f p, const Exclusions& start, const MediumState& state);
+  float lightWeight(const PickedLight& light, float directionPdf) const;
+  float collisionShare(std::size_t light, Point3f p) const;
+  float emissionWeight(std::size_t light, const SurfaceInteraction* si) const;
+  float mediumEmissionWeight(const MediumLight& source, std::size_t light) const;
+  SurfaceInteraction surfaceAt(const SceneHit& hit) const;
+  void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, const Exclusions& start);
+  bool seesOnlyEmission() const { return bounces_ >= setup_.params.maxDepth; }
+
+  const PathSetup& setup_;
+  SampleContext& context_;
+  PathSamples samples_;
+  RenderCounters& counters_;
+
+  RayDifferential ray_;
+  Exclusions rayStart_;
+  BoundaryPlane startPlane_;
+  MediumState state_;
+  SurfaceVertex surface_;
+  MediumVertex medium_{};
+
+  Rgb beta_{1.0f}, radiance_;
+  int bounces_ = 0;
+  int bouncesInPlace_ = 0;  ///< latest scatterings whose flights coordinates could not tell from none
+  float etaScale_ = 1;      ///< undoes the radiance scaling of refraction in roulette decisions
+  // The vertex the current segment starts on, as multiple importance sampling sees it.
+  bool isDirect_ = true;            ///< camera or perfect specular vertex: emission counts fully
+  float directionPdf_ = 0;          ///< solid-angle density of the segment's direction
+  bool ownsUniformLights_ = false;  ///< no light sample was spent on uniform infinite lights there
+};
+
+}  // namespace pbrtmedia

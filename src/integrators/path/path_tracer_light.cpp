@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// What a path collects: light samples at its vertices and along its stretches, and what it meets that emits.
+#include <algorithm>
+
+#include "base/warp.h"
+#include "integrators/path/path_tracer.h"
+#include "world/medium_light.h"
+
+namespace pbrtmedia {
+
+/// A light and a point on it; nothing when light sampling has no part in the estimate.
+std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool scatteringFindsUniformLights) {
+  const auto& lights = setup_.lights;
+  if (lights.empty()) return std::nullopt;
+  const auto skips = [&](std::size_t i) {
+    return scatteringFindsUniformLights && lights[i]->isUniformInfinite();
+  };
+  if (lights.size() == 1 && skips(0)) return std::nullopt;
+  const LightSelector::Choice choice = setup_.selector->choose(p, samples_.get1D());
+  const Point2f u = samples_.get2D();
+  if (skips(choice.light)) return std::nullopt;
+  const MediumLight* const emitter = setup_.scene.mediumLight(choice.light);
+  PickedLight picked{
+      choice.light, choice.probability,
+      emitter ? emitter->sampleDirection(p, u, ray_.time) : lights[choice.light]->sample(p, u)};
+  if (!(picked.sample.pdf > 0) || (!emitter && picked.sample.radiance.isBlack())) return std::nullopt;
+  picked.sample.pdf *= choice.probability;
+  return picked;
+}
+
+/// What of a light sample's radiance arrives at `p`; of a medium, what it sends there from that direction.
+Rgb PathTracer::arriving(const PickedLight& light, Point3f p, const Exclusions& start,
+                         const MediumState& state) {
+  const Scene& scene = setup_.scene;
+  const LightSample& s = light.sample;
+  ShadowRay shadow = shadowRayTo(scene, light.index, s, p, ray_.time, start);
+  if (!setup_.media) {
+    const bool occluded =
+        scene.occluded(shadow.ray, 0, shadow.exclusions, counters_.shadowRays, shadow.hider);
+    return occluded ? Rgb() : s.radiance;
+  }
+  if (const MediumLight* const emitter = scene.mediumLight(light.index)) {
+    const auto span = emitter->span(p, s.wi, ray_.time);
+    if (!span) return {};
+    shadow.ray.tMax = s.distance;
+    return shadowEmission(scene, *setup_.media, shadow, emitter->medium(), *span, state, context_.rng,
+                          counters_, context_.mismatches);
+  }
+  MediumState end = state;
+  return s.radiance *
+         shadowTransmittance(scene, *setup_.media, shadow, end, context_.rng, counters_, context_.mismatches);
+}
+
+/// Share of a light sample; what a direction of that density finds accounts for the rest.
+float PathTracer::lightWeight(const PickedLight& light, float directionPdf) const {
+  if (setup_.lights[light.index]->isDelta()) return 1;
+  const LightSample& s = light.sample;
+  if (setup_.lights[light.index]->isSplit()) return powerHeuristic(s.pdf / light.probability, directionPdf);
+  return powerHeuristic(s.pdf, directionPdf);
+}
+
+/// Share of a collision's sample of a light at one point; `lightStretch` accounts for the rest.
+float PathTracer::collisionShare(std::size_t light, Point3f p) const {
+  if (!medium_.lightsStretch || !setup_.positionLights->contains(light)) return 1;
+  const MediumLightSampling sampling = setup_.params.mediumLightSampling;
+  if (sampling == MediumLightSampling::Equiangular) return 0;
+  const double stretch =
+      setup_.positionLights->pdf(light, {ray_, medium_.tMin, medium_.tMax, medium_.extinction}, medium_.t);
+  if (!(stretch > 0)) return 1;
+  if (sampling == MediumLightSampling::Auto) return 0;
+  const double flight = MediaTracker::flightDensity(state_, ray_, medium_.tMin, medium_.t) *
+                        double{setup_.selector->probability(p, light)};
+  return static_cast<float>(flight / (flight + stretch));
+}
+
+void PathTracer::lightSurface(const Bsdf& bsdf) {
+  const SurfaceInteraction& si = surface_.si;
+  const std::optional<PickedLight> light = pickLight(si.p, ownsUniformLights_);
+  if (!light) return;
+  const LightSample& s = light->sample;
+  const Rgb f = bsdf.f(si.wo, s.wi, BsdfFlags::AllButSpecular) * absDot(s.wi, bsdf.shadingNormal());
+  if (f.isBlack()) return;
+  const bool isDelta = setup_.lights[light->index]->isDelta();
+  const float weight = isDelta ? 1 : lightWeight(*light, bsdf.pdf(si.wo, s.wi));
+  MediumState state = state_;
+  if (setup_.media) {
+    setup_.media->leaveSurface(state, surface_.hit, si, surface_.coincident, s.wi, counters_,
+                               context_.mismatches);
+  }
+  const Exclusions start = surface_.coincident.startingWith(surface_.hit.hit.id);
+  radiance_ += beta_ * f * (weight / s.pdf) * arriving(*light, si.p, start, state);
+}
+
+void PathTracer::lightMedium() {
+  const std::optional<PickedLight> light = pickLight(medium_.p, ownsUniformLights_);
+  if (!light) return;
+  const LightSample& s = light->sample;
+  const float phase = medium_.phase->evaluate(-ray_.d, s.wi);
+  if (!(phase > 0)) return;
+  const float weight = lightWeight(*light, phase) * collisionShare(light->index, medium_.p);
+  if (!(weight > 0)) return;
+  radiance_ += beta_ * (phase * weight / s.pdf) * arriving(*light, medium_.p, {}, state_);
+}
+
+/// Single scattering of a light at one point, at a distance chosen for that light. The flight that follows
+/// may collide and sample the same light: `collisionShare` divides the work.
+void PathTracer::lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit,
+                              const BoundaryPlane& start) {
+  const float u = samples_.get1D(), v = samples_.get1D();
+  const auto choice = setup_.positionLights->sample(stretch, u, v);
+  if (!choice) return;
+  const Point3f p = mediumPoint(choice->t, stretch.tMax, hit, start);
+  if (!isFinite(p)) return;
+  const PickedLight light{choice->light, 1, setup_.lights[choice->light]->sample(p, {})};
+  const LightSample& s = light.sample;
+  if (!(s.pdf > 0) || s.radiance.isBlack()) return;
+  const Rgb scattered = MediaTracker::scattering(state_, ray_, choice->t, -ray_.d, s.wi, counters_);
+  if (scattered.isBlack()) return;
+  double density = choice->pdf;
+  if (setup_.params.mediumLightSampling == MediumLightSampling::Mis) {
+    density += MediaTracker::flightDensity(state_, ray_, stretch.tMin, choice->t) *
+               double{setup_.selector->probability(p, choice->light)};
+  }
+  const Rgb through =
+      MediaTracker::transmittance(state_, ray_, stretch.tMin, choice->t, context_.rng, counters_);
+  if (through.isBlack()) return;
+  radiance_ += beta_ * through * scattered * static_cast<float>(1 / density) * arriving(light, p, {}, state_);
+}
+
+/// What the media emit between two surfaces.
+void PathTracer::collectMediumEmission(double tMin, double tMax) {
+  for (std::size_t i = 0; i < state_.activeCount(); ++i) {
+    const PlacedMedium m = state_.active(i);
+    if (!m.medium->isEmissive()) continue;
+    const EmissionSamples found =
+        MediaTracker::sampleEmission(state_, i, ray_, tMin, tMax, context_.rng, counters_);
+    if (found.count == 0) continue;
+    const std::optional<std::size_t> light = isDirect_ ? std::nullopt : setup_.scene.lightOf(m);
+    const MediumLight* const source = light ? setup_.scene.mediumLight(*light) : nullptr;
+    const auto span = source ? source->span(ray_.o, ray_.d, ray_.time) : std::nullopt;
+    const float weight = span ? mediumEmissionWeight(*source, *light) : 1;
+    for (const EmissionSamples::Sample& e : found) {
+      // Light samples look inside the span only.
+      const bool isShared = span && e.t >= span->tMin && e.t <= span->tMax;
+      radiance_ += beta_ * e.radiance * (isShared ? weight : 1.0f);
+    }
+  }
+}
+
+/// Share of the emission found by the current segment; light sampling at its start accounts for the rest.
+float PathTracer::emissionWeight(std::size_t light, const SurfaceInteraction* si) const {
+  if (isDirect_) return 1;
+  if (light == SceneHit::kNoLight) return 0;  // visible, but no source of illumination
+  const Light& source = *setup_.lights[light];
+  if (ownsUniformLights_ && source.isUniformInfinite()) return 1;
+  const float probability = source.isSplit() ? 1 : setup_.selector->probability(ray_.o, light);
+  const float lightPdf = probability * source.pdf(ray_.o, ray_.d, si);
+  return powerHeuristic(directionPdf_, lightPdf);
+}
+
+/// The same for emission of a medium, number `light` of the lights.
+float PathTracer::mediumEmissionWeight(const MediumLight& source, std::size_t light) const {
+  const double lightPdf =
+      double{setup_.selector->probability(ray_.o, light)} * source.directionPdf(ray_.o, ray_.d, ray_.time);
+  return powerHeuristic(directionPdf_, static_cast<float>(lightPdf));
+}
+
+/// An emitter without material illuminates by its side that is met first. Directly seen are all.
+void PathTracer::collectEmission(Travel& way, const SceneHit& hit, const SurfaceInteraction& si) {
+  if (!isDirect_ && hit.light != SceneHit::kNoLight && !hit.primitive->material) {
+    if (std::ranges::find(way.passedEmitters, hit.hit.id.geometry) != way.passedEmitters.end()) return;
+    way.passedEmitters.push_back(hit.hit.id.geometry);
+  }
+  const Rgb emitted = hit.areaLight().emitted(si.n, si.wo);
+  if (!emitted.isBlack()) radiance_ += beta_ * emitted * emissionWeight(hit.light, &si);
+}
+
+void PathTracer::collectBackground() {
+  for (const std::uint32_t light : setup_.scene.infiniteLights()) {
+    const Rgb background = setup_.lights[light]->background(ray_.d);
+    if (!background.isBlack()) radiance_ += beta_ * background * emissionWeight(light, nullptr);
+  }
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <memory>
+
+#include "integrators/path/path.h"
+#include "lighting/light_selector.h"
+#include "lighting/position_lights.h"
+#include "render/integrator.h"
+#include "world/camera_medium.h"
+
+namespace pbrtmedia {
+
+/// Integrator `volpath`: path tracing over surfaces and media. Scattering in a medium counts as a bounce,
+/// crossing a boundary without material does not. Media that emit are found by the distances at which paths
+/// look for emission and, being lights, by light samples. Unbiased.
+class VolPathIntegrator final : public Integrator {
+ public:
+  /// `selector` is over Scene::lightsWithMedia(); may be null when that is empty.
+  VolPathIntegrator(const Scene& scene, const PathParams& params,
+                    std::unique_ptr<const LightSelector> selector, CameraMedium cameraMedium);
+  ~VolPathIntegrator() override;
+  std::string_view typeName() const override { return "volpath"; }
+  Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
+  const CameraMedium& cameraMedium() const { return cameraMedium_; }
+
+ private:
+  const Scene& scene_;
+  PathParams params_;
+  std::unique_ptr<const LightSelector> selector_;
+  CameraMedium cameraMedium_;
+  MediaTracker tracker_;
+  PositionLights positionLights_;
+  bool hasMedia_, mediaEmit_;
+};
+
+}  // namespace pbrtmedia

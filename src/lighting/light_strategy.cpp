@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "lighting/light_strategy.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "base/distribution.h"
+#include "base/math.h"
+#include "lighting/spatial_light_selector.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// Smallest weight of a light, as a fraction of the average weight: a light whose power is estimated as 0
+/// (an infinite light around a scene that is a single point, a map with negative texels) is still found.
+constexpr double kSmallestShare = 1e-3;
+
+class UniformLightSelector final : public LightSelector {
+ public:
+  explicit UniformLightSelector(std::size_t count) : count_(count) {}
+  Choice choose(Point3f, float u) const override {
+    const auto index = static_cast<std::size_t>(double{u} * static_cast<double>(count_));
+    return {std::min(index, count_ - 1), each()};
+  }
+  float probability(Point3f, std::size_t) const override { return each(); }
+
+ private:
+  float each() const { return 1 / static_cast<float>(count_); }
+  std::size_t count_;
+};
+
+class PowerLightSelector final : public LightSelector {
+ public:
+  explicit PowerLightSelector(std::span<const Light* const> lights) {
+    std::vector<float> weights;
+    double sum = 0;
+    for (const Light* light : lights) {
+      const float power = light->power().luminance();
+      weights.push_back(std::isfinite(power) ? std::max(power, 0.0f) : 0);
+      sum += weights.back();
+    }
+    const auto least = static_cast<float>(kSmallestShare * sum / static_cast<double>(weights.size()));
+    for (float& w : weights) w = std::max(w, least);
+    lights_ = Distribution1D(weights);
+  }
+  Choice choose(Point3f, float u) const override {
+    const Distribution1D::Choice c = lights_.choose(u);
+    return {c.index, c.probability};
+  }
+  float probability(Point3f, std::size_t light) const override { return lights_.probability(light); }
+
+ private:
+  Distribution1D lights_;
+};
+
+}  // namespace
+
+std::optional<LightStrategy> lightStrategyOfName(std::string_view name) {
+  if (name == "uniform") return LightStrategy::Uniform;
+  if (name == "power") return LightStrategy::Power;
+  if (name == "spatial") return LightStrategy::Spatial;
+  return std::nullopt;
+}
+
+std::unique_ptr<const LightSelector> makeLightSelector(LightStrategy strategy,
+                                                       std::span<const Light* const> lights,
+                                                       const Bounds3f& sceneBounds) {
+  CHECK(!lights.empty()) << "a selector needs a light to select";
+  if (strategy == LightStrategy::Uniform || lights.size() == 1) {
+    return std::make_unique<UniformLightSelector>(lights.size());
+  }
+  if (strategy == LightStrategy::Power || sceneBounds.isEmpty()) {
+    return std::make_unique<PowerLightSelector>(lights);
+  }
+  return std::make_unique<SpatialLightSelector>(lights, sceneBounds);
+}
+
+}  // namespace pbrtmedia

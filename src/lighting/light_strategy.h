@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "base/bounds.h"
+#include "lighting/light_selector.h"
+#include "lights/light.h"
+
+namespace pbrtmedia {
+
+/// "lightsamplestrategy" (scene-language reference 11.3). The choice affects noise only: every strategy gives
+/// every light a positive probability everywhere.
+enum class LightStrategy {
+  Uniform,  ///< all lights equal
+  Power,    ///< proportional to the luminance of Light::power(), at least a thousandth of the average
+  Spatial,  ///< by what arrives at the point, tabulated over a grid (see SpatialLightSelector)
+};
+
+/// "uniform", "power", "spatial"; nothing for any other word.
+std::optional<LightStrategy> lightStrategyOfName(std::string_view name);
+
+/// `lights`: the scene's table, at least one, already preprocessed; borrowed for the life of the selector.
+/// One light: uniform, whatever was asked. No surfaces (empty `sceneBounds`), so no grid: power.
+std::unique_ptr<const LightSelector> makeLightSelector(LightStrategy strategy,
+                                                       std::span<const Light* const> lights,
+                                                       const Bounds3f& sceneBounds);
+
+}  // namespace pbrtmedia

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "lighting/position_lights.h"
+
+#include <array>
+#include <cmath>
+
+namespace pbrtmedia {
+namespace {
+
+/// As in light selection: what no power is known of is still found.
+constexpr double kSmallestShare = 1e-3;
+
+/// Whether distances of density p proportional to 1/r² give less noise than collisions in a medium of this
+/// extinction sigma. The second moments of the two estimates of the integral of sigma T / r² are as
+/// sigma² T² / (p r⁴) to sigma T / r⁴, integrated, and with distances t drawn from p itself as the sums of
+/// sigma T² and T p. A distance always costs a shadow ray, a collision only when there is one.
+bool isQuieter(const Equiangular& distances, double tMin, double sigma) {
+  constexpr int kPoints = 8;
+  constexpr double kCost = 1.5;
+  double stretch = 0, collisions = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    const double t = distances.sample((i + 0.5) / kPoints);
+    const double transmittance = std::exp(-sigma * (t - tMin));
+    stretch += sigma * transmittance * transmittance;
+    collisions += transmittance * distances.pdf(t);
+  }
+  return kCost * stretch < collisions;
+}
+
+}  // namespace
+
+PositionLights::PositionLights(const std::vector<const Light*>& lights) : slots_(lights.size(), kNoSlot) {
+  double sum = 0;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const std::optional<Point3f> position = lights[i]->deltaPosition();
+    if (!position) continue;
+    slots_[i] = static_cast<std::uint32_t>(lights_.size());
+    const double power = lights[i]->power().luminance();
+    lights_.push_back({i, lights[i], Vec3d(*position), std::isfinite(power) && power > 0 ? power : 0});
+    sum += lights_.back().power;
+  }
+  if (lights_.empty()) return;
+  const double average = sum > 0 ? sum / static_cast<double>(lights_.size()) : 1;
+  std::vector<float> weights;
+  for (Entry& e : lights_) {
+    e.power = std::max(e.power / average, kSmallestShare);
+    weights.push_back(static_cast<float>(e.power));
+  }
+  byPower_ = Distribution1D(weights);
+}
+
+std::optional<Equiangular> PositionLights::over(const Entry& e, const Stretch& stretch) {
+  const Vec3d o(stretch.ray.o), d(stretch.ray.d);
+  double tMin = stretch.tMin, tMax = stretch.tMax;
+  e.source->clipToLit(o, d, tMin, tMax);
+  std::optional<Equiangular> distances = Equiangular::over(o, d, tMin, tMax, e.position);
+  if (distances && stretch.extinction && !isQuieter(*distances, stretch.tMin, *stretch.extinction)) return {};
+  return distances;
+}
+
+std::optional<PositionLights::Choice> PositionLights::sample(const Stretch& stretch, float u, float v) const {
+  if (lights_.empty()) return std::nullopt;
+  const auto at = [&](const Entry& e, const Equiangular& distances,
+                      double probability) -> std::optional<Choice> {
+    const double t = distances.sample(double{v});
+    const double pdf = probability * distances.pdf(t);
+    if (!(pdf > 0) || !std::isfinite(pdf)) return std::nullopt;
+    return Choice{e.light, t, pdf};
+  };
+  if (!weighsEach()) {
+    const Distribution1D::Choice c = byPower_.choose(u);
+    const Entry& e = lights_[c.index];
+    const std::optional<Equiangular> distances = over(e, stretch);
+    return distances ? at(e, *distances, double{c.probability}) : std::nullopt;
+  }
+  std::array<std::optional<Equiangular>, kMostWeighed> distances;
+  std::array<double, kMostWeighed> weights{};
+  double sum = 0;
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    distances[i] = over(lights_[i], stretch);
+    if (distances[i]) sum += weights[i] = lights_[i].power * distances[i]->strength();
+  }
+  if (!(sum > 0)) return std::nullopt;
+  double rest = double{u} * sum;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    if (!(weights[i] > 0)) continue;
+    last = i;
+    if (rest < weights[i]) break;
+    rest -= weights[i];
+  }
+  return at(lights_[last], *distances[last], weights[last] / sum);
+}
+
+double PositionLights::pdf(std::size_t light, const Stretch& stretch, double t) const {
+  const std::size_t slot = slots_[light];
+  const std::optional<Equiangular> own = over(lights_[slot], stretch);
+  if (!own) return 0;
+  const double atDistance = own->pdf(t);
+  if (!(atDistance > 0) || lights_.size() == 1) return atDistance;
+  if (!weighsEach()) return double{byPower_.probability(slot)} * atDistance;
+  double sum = 0;
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    const std::optional<Equiangular> distances = i == slot ? own : over(lights_[i], stretch);
+    if (distances) sum += lights_[i].power * distances->strength();
+  }
+  return sum > 0 ? lights_[slot].power * own->strength() / sum * atDistance : 0;
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "base/distribution.h"
+#include "base/ray.h"
+#include "lighting/equiangular.h"
+#include "lights/light.h"
+
+namespace pbrtmedia {
+
+/// The lights that shine from one point (point, spot, goniometric, projection), and how a stretch of a ray
+/// through media is sampled for them: a light, then a distance with density proportional to 1/r² over the
+/// part of the stretch that it may reach. Kulla & Fajardo 2012, doi:10.1111/j.1467-8659.2012.03148.x.
+/// Immutable, thread-safe.
+class PositionLights {
+ public:
+  /// Indices of what follows count in `lights`, which are borrowed.
+  explicit PositionLights(const std::vector<const Light*>& lights);
+  bool isEmpty() const { return lights_.empty(); }
+  bool contains(std::size_t light) const { return slots_[light] != kNoSlot; }
+
+  /// A stretch of a ray through media.
+  struct Stretch {
+    const Ray& ray;
+    double tMin, tMax;
+    /// Mean extinction, to leave out the lights that collisions would sample with less noise. Nothing: every
+    /// light is sampled.
+    std::optional<double> extinction = std::nullopt;
+  };
+  struct Choice {
+    std::size_t light;
+    double t;
+    double pdf;  ///< of this light and this distance together, per length; > 0
+  };
+  /// Nothing when no light reaches the stretch. `u`, `v` in [0, 1).
+  std::optional<Choice> sample(const Stretch& stretch, float u, float v) const;
+  /// Density of `sample` at one of these lights and a distance.
+  double pdf(std::size_t light, const Stretch& stretch, double t) const;
+
+ private:
+  static constexpr std::uint32_t kNoSlot = 0xffffffffu;
+  /// Up to here lights are chosen by what they do on the stretch; more of them by their power alone, as
+  /// looking at each on every stretch would cost more than it gains.
+  static constexpr std::size_t kMostWeighed = 16;
+
+  struct Entry {
+    std::size_t light;
+    const Light* source;
+    Vec3d position;
+    double power;
+  };
+  static std::optional<Equiangular> over(const Entry& e, const Stretch& stretch);
+  bool weighsEach() const { return lights_.size() <= kMostWeighed; }
+
+  std::vector<Entry> lights_;
+  std::vector<std::uint32_t> slots_;  ///< of each light of the table
+  Distribution1D byPower_;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "tools/imgtool/convert.h"
+
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+namespace pbrtmedia {
+namespace {
+
+Point2i parseSize(const std::string& text) {
+  const char *end = text.data() + text.size(), *at = text.data();
+  Point2i size;
+  const auto width = std::from_chars(at, end, size.x);
+  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+    const auto height = std::from_chars(width.ptr + 1, end, size.y);
+    constexpr int kMaxSide = 1 << 17;
+    if (height.ec == std::errc() && height.ptr == end && size.x > 0 && size.y > 0 && size.x <= kMaxSide &&
+        size.y <= kMaxSide) {
+      return size;
+    }
+  }
+  throw std::runtime_error("--resize needs WIDTHxHEIGHT with sides from 1 to 131072, found \"" + text + "\"");
+}
+
+}  // namespace
+
+Image converted(Image image, const ConvertOptions& options) {
+  bool changed = false;
+  if (!options.crop.empty()) {
+    const std::vector<int>& c = options.crop;
+    image = crop(image, {{c.at(0), c.at(2)}, {c.at(1), c.at(3)}});
+  }
+  if (options.scale || options.exposure) {
+    const float factor = options.scale.value_or(1.0f) * std::exp2(options.exposure.value_or(0.0f));
+    if (!std::isfinite(factor)) throw std::runtime_error("--scale and --exposure need a finite factor");
+    scaleColors(image, factor);
+    changed = true;
+  }
+  if (options.despike) {
+    despike(image, *options.despike);
+    changed = true;
+  }
+  if (options.bloomLevel) {
+    BloomParams params = options.bloom;
+    params.level = *options.bloomLevel;
+    bloom(image, params);
+    changed = true;
+  }
+  if (options.toneMap) {
+    toneMap(image, options.maxLuminance);
+    changed = true;
+  }
+  if (options.preserveColors) {
+    preserveColors(image);
+    changed = true;
+  }
+  if (!options.resize.empty()) {
+    const Point2i size = parseSize(options.resize);
+    image = resize(image, size.x, size.y, options.resizeFilter);
+    changed = true;
+  }
+  if (options.repeatPixels != 1) {
+    image = repeatPixels(image, options.repeatPixels);
+    changed = true;
+  }
+  if (options.flipY) {
+    image = flipVertically(image);
+    changed = true;
+  }
+  if (changed) {
+    image.metadata.erase("samples");
+    image.metadata.erase("seed");
+  }
+  return image;
+}
+
+int runConvert(const ConvertOptions& options) {
+  requireWritable(options.output);
+  try {
+    writeImage(options.output, converted(loadLinear(options.input).image, options), options.write);
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error(options.input + ": " + e.what());
+  }
+  return 0;
+}
+
+}  // namespace pbrtmedia

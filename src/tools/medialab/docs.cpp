@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "tools/medialab/docs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <map>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+
+#include "base/parallel.h"
+#include "base/writable.h"
+#include "tools/medialab/estimate.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// The measured tables: one depth and control, and the functions that tell estimators apart.
+const std::vector<std::string> kFunctions{"constant",  "cosine", "gaussian",  "hole",
+                                          "linear-up", "step",   "fractal-a", "piecewise-random"};
+constexpr double kControl = 1.1;
+constexpr double kDepths[] = {0.1, 1, 4};
+
+void printParameters(std::ostream& out, const std::vector<ParameterDescription>& parameters) {
+  if (parameters.empty()) return;
+  out << "\n| parameter | type | default | allowed | meaning |\n| --- | --- | --- | --- | --- |\n";
+  for (const ParameterDescription& p : parameters) {
+    out << "| `" << p.name << "` | " << p.type << " | " << p.value << " | " << p.allowed << " | " << p.help
+        << " |\n";
+  }
+}
+
+std::string joined(const std::vector<std::string_view>& words) {
+  std::string out;
+  for (const std::string_view word : words) {
+    if (!out.empty()) out += ", ";
+    out += word;
+  }
+  return out;
+}
+
+/// The first letter as a capital.
+std::string sentence(std::string_view text) {
+  std::string s(text);
+  if (!s.empty() && s[0] >= 'a' && s[0] <= 'z') s[0] = static_cast<char>(s[0] - 'a' + 'A');
+  if (!s.empty() && s.back() != '.') s += '.';
+  return s;
+}
+
+const char* controlSentence(EstimatorTraits::Control control) {
+  switch (control) {
+    case EstimatorTraits::Control::Unused:
+      return "No control.";
+    case EstimatorTraits::Control::CostOnly:
+      return "An upper control that sets the cost; the mean does not depend on it.";
+    case EstimatorTraits::Control::Any:
+      return "An upper control, positive where the extinction is; it may be too low.";
+    case EstimatorTraits::Control::Bounding:
+      return "An upper control that is a bound.";
+  }
+  return "";
+}
+
+void printEstimator(std::ostream& out, std::string_view name) {
+  const LabEstimator estimator(name);
+  const EstimatorTraits t = estimator.traits();
+  out << "\n### `" << name << "`\n\n" << sentence(t.summary) << " Source: " << sentence(t.source) << "\n\n";
+  out << "- **Needs.** " << controlSentence(t.control) << "\n";
+  out << "- **Bias.** " << sentence(nameOf(t.bias));
+  if (!t.biasNote.empty()) out << ' ' << sentence(t.biasNote);
+  out << "\n- **Values.** "
+      << (t.mayLeaveUnitInterval ? "May leave [0, 1]." : "In [0, 1] under a bounding control.")
+      << " Variance: " << (t.finiteVariance ? "finite" : "infinite")
+      << "; under a control too low by any factor: " << (t.finiteVarianceUnbounded ? "finite" : "infinite")
+      << ".\n";
+  out << "- **Cost.** " << (t.boundedCost ? "Bounded." : "Unbounded.") << "\n";
+  out << "- **Laws.** " << sentence(joined(t.laws.names())) << "\n";
+  out << "- **Use when** " << t.useWhen << ".\n";
+  printParameters(out, estimator.parameters());
+}
+
+void printLaws(std::ostream& out) {
+  out << "\n## Laws\n\nA law turns the optical depth F into transmittance.\n";
+  for (const std::string_view name : lawNames()) {
+    const AnyLaw law = *findLaw(name);
+    out << "\n### `" << name << "`\n\n`"
+        << std::visit([](const auto& held) { return std::string_view(held.kFormula); }, law) << "`\n";
+    printParameters(out, parametersOf(law));
+  }
+}
+
+/// Three significant digits.
+std::string brief(double value) {
+  if (std::isnan(value)) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2e", value);
+  return text;
+}
+
+/// Standard deviations below this part of T are rounding.
+constexpr double kRounding = 1e-9;
+
+struct Measured {
+  double value;  ///< variance times cost
+  double bias;   ///< relative error of the mean; 0 for an unbiased estimator
+  bool canWin;   ///< unbiased, and under the exponential law like most
+};
+
+std::string cellText(const Measured& m, bool isBest) {
+  std::string text = m.value > 0 ? brief(m.value) : "0";
+  if (isBest) text = "**" + text + "**";
+  if (m.bias != 0) text += " (bias " + brief(m.bias) + ")";
+  return text;
+}
+
+/// The cells of one depth by estimator and function.
+std::map<std::pair<std::string, std::string>, Measured> measuredCells(const LabTable& table, double depth,
+                                                                      const char* cost, double unit) {
+  const std::size_t estimatorAt = table.column("estimator"), functionAt = table.column("extinction"),
+                    depthAt = table.column("depth"), costAt = table.column(cost),
+                    varianceAt = table.column("variance"), meanAt = table.column("mean"),
+                    exactAt = table.column("exact");
+  std::map<std::pair<std::string, std::string>, Measured> cells;
+  for (const auto& row : table.rows()) {
+    if (row[depthAt].number() != depth) continue;
+    const LabEstimator estimator(row[estimatorAt].text());
+    const bool isUnbiased = estimator.traits().bias == EstimatorTraits::Bias::Unbiased;
+    const double exact = row[exactAt].number(), variance = row[varianceAt].number();
+    const double rounding = kRounding * exact;
+    cells[{row[estimatorAt].text(), row[functionAt].text()}] = {
+        variance > rounding * rounding ? variance * row[costAt].number() * unit : 0,
+        isUnbiased ? 0 : row[meanAt].number() / exact - 1,
+        isUnbiased && std::holds_alternative<ExponentialLaw>(estimator.law())};
+  }
+  return cells;
+}
+
+/// One table of variance times a cost: estimators down, functions across, the least of each function in bold.
+void printMeasured(std::ostream& out, const LabTable& table, double depth, const char* cost, double unit) {
+  const auto cells = measuredCells(table, depth, cost, unit);
+  std::map<std::string, double> least;
+  for (const auto& [at, cell] : cells) {
+    if (!cell.canWin) continue;
+    const auto [best, isFirst] = least.emplace(at.second, cell.value);
+    if (!isFirst && cell.value < best->second) best->second = cell.value;
+  }
+  out << "\n| estimator |";
+  for (const std::string& f : kFunctions) out << ' ' << f << " |";
+  out << "\n| --- |";
+  for (std::size_t i = 0; i < kFunctions.size(); ++i) out << " --- |";
+  out << '\n';
+  for (const std::string_view name : estimatorNames()) {
+    out << "| `" << name << "` |";
+    for (const std::string& f : kFunctions) {
+      const auto cell = cells.find({std::string(name), f});
+      out << ' ';
+      if (cell != cells.end()) {
+        out << cellText(cell->second, cell->second.canWin && cell->second.value == least[f]);
+      }
+      out << " |";
+    }
+    out << '\n';
+  }
+}
+
+EstimateOptions measured(const DocsOptions& o) {
+  EstimateOptions e;
+  e.lab = o.lab;
+  e.functions = kFunctions;
+  e.problem.depths.assign(std::begin(kDepths), std::end(kDepths));
+  e.problem.controls = {kControl};
+  e.trials = o.trials;
+  e.lab.command = "medialab estimate --extinction ";
+  for (const std::string& f : kFunctions) e.lab.command += f + (f == kFunctions.back() ? "" : ",");
+  e.lab.command += " --depth 0.1,1,4 --control " + formatNumber(kControl) + " --trials " +
+                   std::to_string(o.trials) + " --seed " + std::to_string(o.lab.seed);
+  return e;
+}
+
+void printMeasurements(std::ostream& out, const LabTable& table, const DocsOptions& o) {
+  out << "\n## Measured\n\nVariance times cost of one estimate, with default parameters, on the canonical "
+         "functions"
+         " (`medialab list functions`)\nunder a constant control "
+      << kControl
+      << " times the maximum, one super-voxel, no minorant. Lower is better. Bold: the least of each column "
+         "among"
+         " the\nunbiased estimators of the exponential law; those of pink noise answer another question. "
+         "Beside an"
+         " estimator that is\nbiased, or only consistent, stands the relative error of its mean. 0: all "
+         "estimates"
+         " agreed to nine digits. Empty: not\napplicable. Variances of estimators whose values spread widely "
+         "are"
+         " uncertain themselves: `medialab estimate` tells by how\nmuch. The 32 points of `ray-marching` "
+         "meet "
+         "the 32 cells of piecewise-random one by one: exact there by accident.\n\nThe rows behind these "
+         "tables:\n\n```\n"
+      << measured(o).lab.command << "\n```\n";
+  for (const double depth : kDepths) {
+    out << "\n### Optical depth " << formatNumber(depth) << ": variance x look-ups\n";
+    printMeasured(out, table, depth, "lookups", 1);
+    if (o.lab.omitSeconds) continue;
+    out << "\n### Optical depth " << formatNumber(depth) << ": variance x nanoseconds\n\n"
+        << "On one thread of the machine that made this page; look-ups here evaluate a formula, which costs\n"
+           "between a few and 150 ns.\n";
+    printMeasured(out, table, depth, "seconds_per_estimate", 1e9);
+  }
+}
+
+void printLab(std::ostream& out) {
+  out << R"(
+## The lab
+
+`medialab COMMAND --help` tells all options; every output begins with the command that repeats it.
+
+```
+medialab list                                                                      # this page's first half, as text or JSON
+medialab estimate --estimator all --extinction cosine --depth 1,4 --control 1,2    # mean, variance, cost, with errors
+medialab heatmap --extinction gaussian -o gaussian                                 # over transmittance and control: CSV, EXR, PNG
+medialab converge --estimator ratio,unbiased-ray-marching -o converge.csv          # error against samples, look-ups, seconds
+medialab profile --estimator ratio --supervoxels 8 --lower 1 --picture line.png    # one line, its controls, its look-ups
+medialab stress -o stress.csv                                                      # all on stiff and extreme lines: ten minutes of processor time
+medialab precision                                                                 # float against double where it matters
+```
+)";
+}
+
+}  // namespace
+
+std::string docsPage(const DocsOptions& o, const StopSignal& stop) {
+  std::ostringstream out;
+  out << "# Transmittance estimators\n\n"
+         "This page is generated: `"
+      << o.lab.command
+      << "`. It says what `medialab list` says, and what a run measured.\n\n"
+         "Scene files choose an estimator by its keyword in `\"string transmittance\"` of a medium and give "
+         "its"
+         " parameters in the\nsame entry; the lab takes the same names. A *control* is a bound of the "
+         "extinction"
+         " by super-voxels: the upper one is\nthe majorant, the lower one the minorant. *Unbiased* means "
+         "that the"
+         " mean is the transmittance exactly; *consistent*,\nthat it becomes so as the cost of one estimate"
+         " grows; *biased*, neither.\n\n"
+         "| estimator | bias | control | in [0, 1] | finite variance | bounded cost | laws |\n"
+         "| --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const std::string_view name : estimatorNames()) {
+    const EstimatorTraits t = LabEstimator(name).traits();
+    const bool servesAll = t.laws == LawSet::all();
+    out << "| [`" << name << "`](#" << name << ") | " << nameOf(t.bias) << " | " << nameOf(t.control) << " | "
+        << (t.mayLeaveUnitInterval ? "no" : "yes") << " | " << (t.finiteVariance ? "yes" : "no") << " | "
+        << (t.boundedCost ? "yes" : "no") << " | " << (servesAll ? "all" : joined(t.laws.names())) << " |\n";
+  }
+  out << "\n## Estimators\n";
+  for (const std::string_view name : estimatorNames()) printEstimator(out, name);
+  printLaws(out);
+  const LabTable table = estimateTable(measured(o), stop);
+  if (stop) throw std::runtime_error("stopped: no page is written");
+  printMeasurements(out, table, o);
+  printLab(out);
+  return out.str();
+}
+
+int runDocs(const DocsOptions& options) {
+  const std::string& name = options.lab.outfile;
+  if (!name.empty() && extensionOf(name) != ".md") {
+    throw std::runtime_error(name + ": unknown extension; the page is Markdown: .md");
+  }
+  if (!name.empty()) checkWritable(name);
+  const ThreadLimit limit(options.lab.threads);
+  const StopSignal stop;
+  const std::string page = docsPage(options, stop);
+  writeOutput(options.lab.outfile, [&](std::ostream& out) { out << page; });
+  return 0;
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "tools/medialab/heatmap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "base/parallel.h"
+#include "base/writable.h"
+#include "image/image.h"
+#include "tools/medialab/heatmap_picture.h"
+
+namespace pbrtmedia {
+namespace {
+
+using Measure = Heatmap::Measure;
+
+/// Trials per look-up of the budget at most, for estimates that look nowhere.
+constexpr std::uint64_t kTrialsPerLookup = 4;
+constexpr double kRounding = 1e-9;
+
+Heatmap::Pixel measurePixel(const HeatmapOptions& o, const CanonicalFunction& function,
+                            const LabEstimator& estimator, double transmittance, double efficiency) {
+  ProblemOptions at = o.problem;
+  at.depths = {depthReachedOf(estimator.law(), transmittance)};
+  at.efficiencies = {efficiency};
+  const ProblemChoice choice = problemChoices(at, function).front();
+  const LabProblem problem = makeProblem(at, function, choice);
+  TrialLimit limit{.trials = o.trials};
+  if (o.trials == 0) limit = {.trials = kTrialsPerLookup * o.lookups, .lookups = o.lookups};
+  const TrialStats stats =
+      runTrials(estimator, problem, o.plan,
+                rowSeed(o.lab.seed, estimator.label(), function.about().name, choice), limit);
+  Heatmap::Pixel pixel;
+  pixel.exact = problem.transmittance(estimator.law());
+  pixel.mean = stats.value.mean();
+  pixel.meanError = stats.value.meanError();
+  pixel.variance = stats.value.variance();
+  pixel.lookups = stats.lookupsPerTrial();
+  pixel.seconds = stats.secondsPerTrial();
+  pixel.trials = stats.trials();
+  pixel.nonFinite = stats.nonFinite;
+  return pixel;
+}
+
+LabTable tableOf(const HeatmapOptions& o, const Heatmap& map) {
+  std::vector<std::string> columns{"estimator",     "extinction",  "x",        "y",
+                                   "transmittance", "efficiency",  "trials",   "exact",
+                                   "mean",          "mean_stderr", "variance", "lookups"};
+  if (!o.lab.omitSeconds) columns.emplace_back("seconds_per_estimate");
+  columns.emplace_back("inverse_efficiency_lookups");
+  if (!o.lab.omitSeconds) columns.emplace_back("inverse_efficiency_seconds");
+  columns.insert(columns.end(), {"non_finite", "best_variance", "best_inverse_efficiency"});
+  LabTable table(o.lab.command, columns);
+  for (std::size_t l = 0; l < map.layers.size(); ++l) {
+    for (int y = 0; y < map.height; ++y) {
+      for (int x = 0; x < map.width; ++x) {
+        const std::size_t i = map.index(x, y);
+        const Heatmap::Pixel& p = map.layers[l].pixels[i];
+        if (p.trials == 0) continue;
+        std::vector<LabTable::Cell> row{map.layers[l].estimator,
+                                        o.function,
+                                        static_cast<std::uint64_t>(x),
+                                        static_cast<std::uint64_t>(y),
+                                        map.transmittance(x),
+                                        map.efficiency(y),
+                                        p.trials,
+                                        p.exact,
+                                        p.mean,
+                                        p.meanError,
+                                        p.variance,
+                                        p.lookups};
+        if (!o.lab.omitSeconds) row.emplace_back(p.seconds);
+        row.emplace_back(p.value(Measure::VarianceLookups));
+        if (!o.lab.omitSeconds) row.emplace_back(p.value(Measure::VarianceSeconds));
+        row.emplace_back(p.nonFinite);
+        row.emplace_back(map.best(i, Measure::Variance) == l);
+        row.emplace_back(map.best(i, Measure::VarianceLookups) == l);
+        table.add(std::move(row));
+      }
+    }
+  }
+  return table;
+}
+
+/// "share of pixels where each estimator is best" as notes.
+void noteShares(LabTable& table, const Heatmap& map) {
+  for (const auto& [measure, name] :
+       {std::pair{Measure::Variance, "variance"}, {Measure::VarianceLookups, "variance x lookups"}}) {
+    std::vector<std::size_t> counts(map.layers.size());
+    std::size_t total = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
+         ++i) {
+      const std::size_t best = map.best(i, measure);
+      if (best == Heatmap::kNoBest) continue;
+      ++counts[best];
+      ++total;
+    }
+    std::string text = "lowest ";
+    text += name;
+    text += ", percent of the pixels:";
+    for (std::size_t l = 0; l < counts.size(); ++l) {
+      if (counts[l] == 0) continue;
+      const double percent = 100.0 * static_cast<double>(counts[l]) / static_cast<double>(total);
+      text += ' ' + map.layers[l].estimator + ' ' + formatNumber(std::round(10 * percent) / 10);
+    }
+    table.note(text);
+  }
+}
+
+/// Name and parameters: "pinknoise correlation=0.5".
+std::string describeLaw(const AnyLaw& law) {
+  std::string text(nameOf(law));
+  for (const ParameterDescription& p : parametersOf(law)) text += ' ' + p.name + '=' + p.value;
+  return text;
+}
+
+/// The estimators of a map, all under one law: a best one among values of different laws would mean nothing.
+/// "all" stands for those of the exponential law unless another is named.
+std::vector<LabEstimator> estimatorsOf(const HeatmapOptions& o, std::vector<LabTable::Skipped>& skipped) {
+  EstimatorSelection selection = o.selection;
+  if (selection.isAll() && selection.law.empty()) selection.law = "exponential";
+  std::vector<LabEstimator> estimators = selection.select(skipped);
+  for (const LabEstimator& one : estimators) {
+    const std::string first = describeLaw(estimators.front().law()), law = describeLaw(one.law());
+    if (law == first) continue;
+    std::string text = "a map compares estimators of one law: " + estimators.front().label() + " serves ";
+    text += first;
+    text += ", " + one.label() + ' ';
+    text += law;
+    throw std::runtime_error(text);
+  }
+  return estimators;
+}
+
+}  // namespace
+
+double Heatmap::Pixel::value(Measure measure) const {
+  if (nonFinite > 0) return kUnknown;
+  switch (measure) {
+    case Measure::Variance:
+      return variance;
+    case Measure::VarianceLookups:
+      return variance * lookups;
+    case Measure::VarianceSeconds:
+      return variance * seconds;
+  }
+  return kUnknown;
+}
+
+double Heatmap::transmittance(int x) const { return 1 - (0.01 + (width > 1 ? 0.98 * x / (width - 1) : 0)); }
+
+double Heatmap::efficiency(int y) const {
+  constexpr double kBottom = 0.01;
+  return height > 1 ? topEfficiency + (kBottom - topEfficiency) * y / (height - 1) : topEfficiency;
+}
+
+std::size_t Heatmap::best(std::size_t pixel, Measure measure) const {
+  std::size_t best = kNoBest;
+  double least = 0, leastLookups = 0;
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    const Pixel& p = layers[l].pixels[pixel];
+    double value = p.value(measure);
+    if (!std::isfinite(value)) continue;
+    if (!layers[l].isUnbiased) continue;
+    const double rounding = kRounding * p.exact;
+    if (p.variance <= rounding * rounding) {
+      if (std::abs(p.mean - p.exact) > kRounding * p.exact) continue;
+      value = 0;
+    }
+    if (best != kNoBest && (value > least || (value == least && p.lookups >= leastLookups))) continue;
+    best = l;
+    least = value;
+    leastLookups = p.lookups;
+  }
+  return best;
+}
+
+Heatmap measureHeatmap(const HeatmapOptions& o, std::vector<LabTable::Skipped>& skipped,
+                       const StopSignal& stop) {
+  o.problem.check();
+  if (o.width < 1 || o.height < 1) throw std::runtime_error("--resolution: expected at least 1 x 1");
+  if (o.trials == 0 && o.lookups < 1) throw std::runtime_error("--lookups: expected at least 1");
+  if (o.trials == 1) throw std::runtime_error("--trials: expected at least 2, for a variance");
+  const CanonicalFunction function = selectFunctions({o.function}).front();
+  Heatmap map{
+      o.width, o.height, o.topEfficiency > 0 ? o.topEfficiency : function.about().topEfficiency, {}, {}};
+  const std::vector<LabEstimator> estimators = estimatorsOf(o, skipped);
+  if (!estimators.empty()) {
+    const AnyLaw law = estimators.front().law();
+    map.law = describeLaw(law);
+    const double least = map.transmittance(o.width - 1);
+    if (!std::isfinite(depthReachedOf(law, least))) {
+      throw std::runtime_error("the law " + map.law + " never falls to the transmittance " +
+                               formatNumber(least));
+    }
+  }
+  LabProgress progress("medialab heatmap", estimators.size() * static_cast<std::size_t>(o.height),
+                       o.lab.quiet);
+  for (const LabEstimator& estimator : estimators) {
+    const LabProblem any = makeProblem(o.problem, function, {1, 1, 0});
+    if (const std::string why = whyNotApplicable(estimator, any.line); !why.empty()) {
+      skipped.push_back({estimator.label(), why});
+      continue;
+    }
+    Heatmap::Layer layer{estimator.label(), {}};
+    layer.isUnbiased = estimator.traits().bias == EstimatorTraits::Bias::Unbiased;
+    layer.pixels.resize(static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height));
+    for (int y = 0; y < o.height && !stop; ++y) {
+      parallelFor(static_cast<std::size_t>(o.width), [&](std::size_t i) {
+        const int x = static_cast<int>(i);
+        if (stop) return;
+        layer.pixels[map.index(x, y)] =
+            measurePixel(o, function, estimator, map.transmittance(x), map.efficiency(y));
+      });
+      progress.update(map.layers.size() * static_cast<std::size_t>(o.height) + static_cast<std::size_t>(y),
+                      estimator.label());
+    }
+    map.layers.push_back(std::move(layer));
+    if (stop) break;
+  }
+  return map;
+}
+
+int runHeatmap(const HeatmapOptions& o) {
+  LabOptions lab = o.lab;
+  std::string prefix = o.lab.outfile;
+  if (const std::filesystem::path name = prefix;
+      extensionOf(name) == ".csv" || extensionOf(name) == ".json") {
+    lab.format = tableFormat(o.lab);
+    prefix = std::filesystem::path(name).replace_extension().string();
+  }
+  lab.format = lab.format.value_or(TableFormat::Csv);
+  if (!prefix.empty()) lab.outfile = prefix + (lab.format == TableFormat::Csv ? ".csv" : ".json");
+  if (!prefix.empty()) checkWritable(prefix + "-variance-lookups.png");  // the longest name of all
+  checkOutput(lab);
+  const ThreadLimit limit(o.lab.threads);
+  const StopSignal stop;
+  std::vector<LabTable::Skipped> skipped;
+  const Heatmap map = measureHeatmap(o, skipped, stop);
+  LabTable table = tableOf(o, map);
+  for (const auto& s : skipped) table.skip(s.what, s.reason);
+  noteShares(table, map);
+  table.note("law of the transmittance: " + map.law);
+  if (stop) table.markStopped();
+  if (map.layers.empty()) throw std::runtime_error("nothing could be run");
+  if (!prefix.empty()) {
+    writeImage(prefix + ".exr", heatmapChannels(map, o.lab.command, !o.lab.omitSeconds),
+               {.pixelType = PixelType::Float});
+    for (const auto& [measure, suffix] : {std::pair{Measure::Variance, "-variance.png"},
+                                          {Measure::VarianceLookups, "-variance-lookups.png"},
+                                          {Measure::VarianceSeconds, "-variance-seconds.png"}}) {
+      if (measure == Measure::VarianceSeconds && o.lab.omitSeconds) continue;
+      writeImage(prefix + suffix, heatmapPicture(map, measure, o.function));
+    }
+  }
+  writeTable(table, lab);
+  return 0;
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "tools/medialab/stress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <stdexcept>
+
+#include "base/diagnostics.h"
+#include "base/hash.h"
+#include "base/parallel.h"
+#include "tools/medialab/stress_cases.h"
+#include "tools/medialab/verdict.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// What a cell may spend. Trials end where the look-ups measured so far reach the budget, not the clock, so
+/// that the table is the same on every machine.
+struct Budget {
+  std::uint64_t trials, lookups;
+  double seconds;        ///< of processor time; far more than the look-ups take
+  double predictedCost;  ///< look-ups of one estimate that are not even tried
+};
+constexpr Budget kFull{100000, 20000000, 60, 1e8}, kQuick{400, 40000, 10, 3e6};
+
+struct Cell {
+  const LabEstimator* estimator;
+  const StressCase* one;
+  LabProblem problem;
+  StressSetting setting;
+  std::string whySkipped;
+};
+
+std::vector<StressCase> selectCases(const StressOptions& o) {
+  std::vector<StressCase> all = stressCases(), chosen;
+  for (const std::string& word : o.cases) {
+    const bool isKnown = std::any_of(all.begin(), all.end(), [&](const StressCase& c) {
+      return std::string_view(c.name).substr(0, word.size()) == word;
+    });
+    if (isKnown) continue;
+    std::vector<std::string_view> names;
+    for (const StressCase& c : all) names.emplace_back(c.name);
+    throw std::runtime_error("unknown case \"" + word + '"' + suggestion(word, names));
+  }
+  for (StressCase& c : all) {
+    const bool isNamed = std::any_of(o.cases.begin(), o.cases.end(), [&](const std::string& word) {
+      return std::string_view(c.name).substr(0, word.size()) == word;
+    });
+    if (o.cases.empty() ? (!o.isQuick || c.isQuick) : isNamed) chosen.push_back(std::move(c));
+  }
+  return chosen;
+}
+
+/// Why a cell is not even tried; empty if it is.
+std::string whySkipped(const EstimatorTraits& traits, const Cell& cell, const Budget& budget) {
+  std::string why = whyNotApplicable(*cell.estimator, cell.problem.line);
+  if (!why.empty()) return why;
+  // Walks make as many look-ups as the control is deep, and combs that it sizes have teeth in proportion.
+  const bool costGrows = traits.control != EstimatorTraits::Control::Unused;
+  if (costGrows && cell.setting.controlDepth > budget.predictedCost) {
+    why = "cost ~ optical depth of the control: " + formatNumber(std::round(cell.setting.controlDepth)) +
+          " look-ups predicted";
+  }
+  return why;
+}
+
+Cell cellOf(const LabEstimator& estimator, const StressCase& one, const Budget& budget) {
+  const CanonicalLine line(one.function, one.setup);
+  const double integral = line.integral();
+  const double sigmaT = integral > 0 ? one.depth / integral : one.sigmaOfNothing;
+  Cell cell{&estimator, &one, {line, sigmaT}, {}, ""};
+  cell.setting = {.exact = cell.problem.transmittance(estimator.law()),
+                  .depth = cell.problem.depth(),
+                  .controlDepth = cell.problem.controlDepth(),
+                  .control = one.setup.control,
+                  .isBounding = one.setup.control >= 1,
+                  .isBlind = one.isBlind};
+  cell.whySkipped = whySkipped(estimator.traits(), cell, budget);
+  return cell;
+}
+
+/// The verdict's reason, and whether look-ups were too dear for all trials.
+std::string reasonOf(const StressVerdict& verdict, const TrialStats& stats, const Budget& budget) {
+  std::string reason = verdict.reason;
+  if (stats.trials() == 0 || stats.trials() >= budget.trials) return reason;
+  if (!reason.empty()) reason += "; ";
+  return reason + "trials ended at " + formatNumber(static_cast<double>(budget.lookups)) + " look-ups";
+}
+
+std::vector<LabTable::Cell> rowOf(const StressOptions& o, const Budget& budget, const Cell& cell,
+                                  const IsolatedResult& result, const StressVerdict& verdict) {
+  const TrialStats& s = result.stats;
+  const bool hasTrials = s.trials() > 0;
+  const double none = std::nan("");
+  std::vector<LabTable::Cell> row{cell.estimator->label(),
+                                  cell.one->name,
+                                  cell.setting.depth,
+                                  cell.setting.controlDepth,
+                                  s.trials(),
+                                  verdict.finite,
+                                  verdict.inRange,
+                                  hasTrials ? s.value.mean() : none,
+                                  cell.setting.exact,
+                                  verdict.z,
+                                  verdict.unbiased,
+                                  hasTrials ? s.lookupsPerTrial() : none,
+                                  s.mostLookups};
+  if (!o.lab.omitSeconds) row.emplace_back(hasTrials ? s.seconds : none);
+  row.emplace_back(std::string(nameOf(verdict.kind)));
+  row.emplace_back(reasonOf(verdict, s, budget));
+  return row;
+}
+
+}  // namespace
+
+LabTable stressTable(const StressOptions& o, const StopSignal& stop) {
+  std::vector<std::string> columns{"estimator", "case",     "depth",       "control_depth", "trials",
+                                   "finite",    "in_range", "mean",        "exact",         "z",
+                                   "unbiased",  "lookups",  "most_lookups"};
+  if (!o.lab.omitSeconds) columns.emplace_back("seconds");
+  columns.insert(columns.end(), {"verdict", "reason"});
+  LabTable table(o.lab.command, columns);
+  std::vector<LabTable::Skipped> skipped;
+  const std::vector<LabEstimator> estimators = o.selection.select(skipped);
+  for (const auto& s : skipped) table.skip(s.what, s.reason);
+  const std::vector<StressCase> cases = selectCases(o);
+  const Budget& budget = o.isQuick ? kQuick : kFull;
+  std::vector<Cell> cells;
+  std::vector<std::function<TrialStats()>> jobs;
+  std::vector<std::size_t> cellOfJob;
+  for (const LabEstimator& estimator : estimators) {
+    for (const StressCase& one : cases) cells.push_back(cellOf(estimator, one, budget));
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!cells[i].whySkipped.empty()) continue;
+    cellOfJob.push_back(i);
+    jobs.emplace_back([&cell = cells[i], &budget, &o] {
+      const std::uint64_t seed =
+          hashCombine(o.lab.seed, hashBytes(cell.estimator->label()), hashBytes(cell.one->name));
+      return runTrials(*cell.estimator, cell.problem, {}, seed,
+                       {.trials = budget.trials, .lookups = budget.lookups});
+    });
+  }
+  LabProgress progress("medialab stress", jobs.size(), o.lab.quiet);
+  std::size_t done = 0;
+  const std::vector<IsolatedResult> results =
+      runIsolated(jobs, threadCount(), budget.seconds, stop.flag(), [&](std::size_t job) {
+        const Cell& cell = cells[cellOfJob[job]];
+        progress.update(++done, cell.estimator->label() + " on " + cell.one->name);
+      });
+  std::map<std::string_view, std::size_t> counts;
+  for (std::size_t i = 0, job = 0; i < cells.size(); ++i) {
+    IsolatedResult result;
+    StressVerdict verdict;
+    if (cells[i].whySkipped.empty()) {
+      result = results[job++];
+      if (result.end == IsolatedResult::End::NotRun) continue;
+      verdict = judge(cells[i].estimator->traits(), cells[i].setting, result);
+    } else {
+      verdict.kind = StressVerdict::Kind::Skipped;
+      verdict.reason = cells[i].whySkipped;
+      verdict.finite = verdict.inRange = verdict.unbiased = "-";
+      verdict.z = std::nan("");
+    }
+    ++counts[nameOf(verdict.kind)];
+    table.add(rowOf(o, budget, cells[i], result, verdict));
+  }
+  std::string summary = "verdicts:";
+  for (const auto& [kind, count] : counts) {
+    summary += ' ';
+    summary += kind;
+    summary += ' ' + std::to_string(count);
+  }
+  table.note(summary);
+  if (stop) table.markStopped();
+  return table;
+}
+
+int runStress(const StressOptions& options) {
+  checkOutput(options.lab);
+  const ThreadLimit limit(options.lab.threads);
+  const StopSignal stop;
+  const LabTable table = stressTable(options, stop);
+  writeTable(table, options.lab);
+  const std::size_t verdict = table.column("verdict");
+  const bool hasFailed = std::any_of(table.rows().begin(), table.rows().end(), [&](const auto& row) {
+    return row[verdict].text() == nameOf(StressVerdict::Kind::Fail);
+  });
+  return hasFailed || stop ? 1 : 0;
+}
+
+}  // namespace pbrtmedia

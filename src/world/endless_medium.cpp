@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "world/endless_medium.h"
+
+#include <map>
+
+#include "world/line_walk.h"
+#include "world/probe_directions.h"
+
+namespace pbrtmedia {
+namespace {
+
+bool isUnbounded(const Medium& medium) {
+  const Bounds3f b = medium.bounds();
+  return !b.isEmpty() && maxComponent(b.diagonal()) == kInfinity;
+}
+
+/// The first medium of the state that swallows everything on the way to infinity.
+const Medium* endlessOf(const MediumState& state, const Ray& ray, RenderCounters& counters) {
+  for (std::size_t i = 0; i < state.activeCount(); ++i) {
+    const Medium& medium = *state.active(i).medium;
+    if (!isUnbounded(medium)) continue;
+    Rng rng(0);
+    if (medium.transmittance({ray.o, ray.d, 0, kInfinity}, rng, counters).isBlack()) return &medium;
+  }
+  return nullptr;
+}
+
+const Medium* endlessAlong(const Scene& scene, const MediaTracker& tracker, MediumState state,
+                           const Ray& ray) {
+  RenderCounters counters;
+  LineWalk walk(scene, ray, Exclusions{});
+  const auto fits = [&](const SceneHit& h) { return tracker.fits(state, h, scene.surface(h, ray), ray.d); };
+  while (const auto hit = walk.next(counters.rays, fits)) {
+    tracker.cross(state, *hit, scene.surface(*hit, ray), ray.d, counters, nullptr);
+  }
+  tracker.escape(state, counters);
+  return endlessOf(state, ray, counters);
+}
+
+}  // namespace
+
+const Medium* findEndlessMedium(const Scene& scene, const CameraMedium& camera, Point3f origin, float time) {
+  if (camera.state().isVacuum() && !scene.hasMediumBoundaries()) return nullptr;
+  const MediaTracker tracker(scene, camera.given());
+  std::map<const Medium*, std::size_t> votes;
+  for (const Vector3f direction : kProbeDirections) {
+    Ray ray;
+    ray.o = origin;
+    ray.d = normalize(direction);
+    ray.time = time;
+    const Medium* found = endlessAlong(scene, tracker, camera.state(), ray);
+    if (++votes[found] > kProbeDirections.size() / 2) return found;
+  }
+  return nullptr;
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include "world/media_tracker.h"
+
+namespace pbrtmedia {
+
+/// The way from a vertex to a light sample.
+struct ShadowRay {
+  Ray ray;
+  Exclusions exclusions;
+  std::uint32_t hider = PrimitiveId::kNone;  ///< Scene::hiderOf the light
+};
+
+/// A ray from `p` along `sample.wi` that ends on the light. `start`: the primitives that hold p (t = 0).
+/// The emitting primitive itself does not block.
+ShadowRay shadowRayTo(const Scene& scene, std::size_t light, const LightSample& sample, Point3f p, float time,
+                      const Exclusions& start);
+
+/// Radiance that `medium` sends along the shadow ray to its start, from where it is present inside `span`,
+/// dimmed by everything on the way: black when a surface with a material is before it. `ray.tMax` is behind
+/// the span. Unbiased. `state`: of the start.
+Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
+                   const PlacedMedium& medium, Span<double> span, MediumState state, Rng& rng,
+                   RenderCounters& counters, MismatchLog* log);
+
+/// Transmittance of the media along the shadow ray, starting in `state`: black when a surface with a material
+/// is in the way, or `shadow.hider`. Boundaries without material are crossed. shadowalpha does not apply
+/// (closest hits are searched). `state` is then that of the far end.
+Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
+                        MediumState& state, Rng& rng, RenderCounters& counters, MismatchLog* log);
+
+}  // namespace pbrtmedia
