@@ -23,7 +23,7 @@
 #include "fields/field_line.h"
 #include "fields/grid_field.h"
 #include "measure.h"
-#include "transmittance/any_estimator.h"
+#include "transmittance/estimator_list.h"
 
 namespace pbrtmedia::bench {
 namespace {
@@ -79,7 +79,7 @@ GridField::Params roughGrid(int n) {
 template <class Field>
 struct Scene {
   const Field& field;
-  SuperVoxels bounds;
+  FieldBounds bounds;
   std::vector<FieldLine<Field>> lines{};
   std::vector<double> columns{};  ///< integral of the density
   Channels<1> sigmaT{1};
@@ -87,7 +87,7 @@ struct Scene {
 
 template <class Field>
 Scene<Field> sceneOf(const Field& field, SuperVoxels bounds) {
-  Scene<Field> scene{field, std::move(bounds)};
+  Scene<Field> scene{field, FieldBounds::proven(std::move(bounds))};
   Rng rng(kSeed + 1);
   double sum = 0;
   while (scene.lines.size() < kLines) {
@@ -116,7 +116,7 @@ Row measure(const Scene<Field>& scene, const AnyEstimator& any) {
   Row row;
   const EstimatorTraits traits = traitsOf(any);
   const AnyLaw law = lawOf(any);
-  std::visit(
+  visitEstimator(
       [&](const auto& estimator) {
         // Mean and error: the mean over all lines has the variance of the errors within each line.
         Rng rng(kSeed + 2);

@@ -16,6 +16,7 @@
 #include "base/rng.h"
 #include "base/warp.h"
 #include "fields/grid_field.h"
+#include "media/field_kernel.h"
 #include "media/field_medium.h"
 #include "media/grid_medium.h"
 
@@ -82,13 +83,13 @@ GridMediumParams mediumParams() {
   return params;
 }
 
-using GridMedium = FieldMedium<GridField>;
-std::unique_ptr<GridMedium> makeMedium(int power, AnyEstimator estimator = {}) {
+std::unique_ptr<Medium> makeMedium(int power, AnyEstimator estimator = {}) {
   GridMediumParams params = mediumParams();
   params.estimator = estimator;
   GridField field(params.grid, Transform());
-  SuperVoxels bounds = field.superVoxels(power);
-  return std::make_unique<GridMedium>(params, "heterogeneous", std::move(field), std::move(bounds));
+  FieldBounds bounds = FieldBounds::proven(field.superVoxels(power));
+  return std::make_unique<FieldMedium>(
+      params, "heterogeneous", std::make_unique<FieldKernel<GridField>>(std::move(field), std::move(bounds)));
 }
 
 /// Unit directions through random points of the box, from outside.
@@ -111,7 +112,7 @@ std::vector<Segment> shadowSegments(const Medium& medium) {
   std::vector<Segment> rays;
   while (rays.size() < kRays) {
     for (const Segment& ray : crossingSegments()) {
-      const FreeFlight flight = medium.sampleFreeFlight(ray, rng, counters);
+      const FreeFlight flight = medium.sampleFreeFlight(ray, Rgb(1.0f), rng, counters);
       if (!flight.collided) continue;
       rays.push_back({ray.at(flight.t), sampleUniformSphere({rng.uniform(), rng.uniform()}), 0, kInfinity});
     }
@@ -149,11 +150,12 @@ void buildBounds(benchmark::State& state) {
 BENCHMARK(buildBounds)->Arg(1)->Arg(2)->Arg(3)->Unit(benchmark::kMillisecond);
 
 void walkBounds(benchmark::State& state) {
-  const auto medium = makeMedium(static_cast<int>(state.range(0)));
+  const GridField field(gridParams(), Transform());
+  const FieldBounds bounds = FieldBounds::proven(field.superVoxels(static_cast<int>(state.range(0))));
   const auto rays = crossingSegments();
   std::size_t i = 0;
   for (auto _ : state) {
-    const auto line = FieldLine<GridField>::clip(medium->field(), medium->superVoxels(), rays[i++ % kRays]);
+    const auto line = FieldLine<GridField>::clip(field, bounds, rays[i++ % kRays]);
     double sum = 0;
     if (line) {
       line->walk([&](double a, double b, const SuperVoxel& bound) {
@@ -174,7 +176,7 @@ void freeFlight(benchmark::State& state) {
   RenderCounters counters;
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(medium->sampleFreeFlight(rays[i++ % kRays], rng, counters));
+    benchmark::DoNotOptimize(medium->sampleFreeFlight(rays[i++ % kRays], Rgb(1.0f), rng, counters));
   }
   finish(state, counters);
 }
