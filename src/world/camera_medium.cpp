@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "world/line_walk.h"
+#include "world/boundary_sides.h"
+#include "world/media_walk.h"
 #include "world/probe_directions.h"
 
 namespace pbrtmedia {
@@ -29,8 +30,6 @@ class PresenceCount {
   MediumState open_;
 };
 
-bool isPresent(const Medium* m) { return m && m->overlap().mode != OverlapRule::Mode::Boundary; }
-
 Finding probe(const Scene& scene, Point3f origin, float time, Vector3f direction) {
   Ray ray;
   ray.o = origin;
@@ -41,19 +40,14 @@ Finding probe(const Scene& scene, Point3f origin, float time, Vector3f direction
   PresenceCount presence;
   std::uint64_t queries = 0;
   while (const auto hit = walk.next(queries)) {
-    const MediumInterface& media = hit->primitive->media;
-    if (media.same()) continue;
+    if (hit->primitive->media.same()) continue;
     finding.isWeak = finding.isWeak || scene.boundaries().faultOf(*hit->primitive);
-    const bool outward = dot(ray.d, scene.surface(*hit, ray).n) > 0;
-    const PlacedMedium inside{media.inside, hit->insidePlacement},
-        outside{media.outside, hit->outsidePlacement};
-    const PlacedMedium near = outward ? inside : outside, far = outward ? outside : inside;
-    if (isPresent(near.medium)) presence.leave(near, finding.state);
-    if (isPresent(far.medium)) presence.enter(far);
-    const bool namesBoundary = !isPresent(near.medium) && (near.medium || !isPresent(far.medium));
-    if (namesBoundary && !finding.saysBoundary) {
+    const BoundarySides sides(*hit, dot(ray.d, scene.surface(*hit, ray).n) > 0);
+    if (sides.nearIsPresent) presence.leave(sides.near, finding.state);
+    if (sides.farIsPresent) presence.enter(sides.far);
+    if (sides.nearNamesBoundary() && !finding.saysBoundary) {
       finding.saysBoundary = true;
-      finding.state.setBoundary(near);
+      finding.state.setBoundary(sides.near);
     }
   }
   return finding;
@@ -135,11 +129,8 @@ MediumState CameraMedium::stateFor(const Ray& ray, const Scene& scene, const Med
   link.tMax = length(offset);
   link.d = offset / link.tMax;
   link.time = ray.time;
-  LineWalk walk(scene, link, Exclusions{});
-  const auto fits = [&](const SceneHit& h) { return tracker.fits(state, h, scene.surface(h, link), link.d); };
-  while (const auto hit = walk.next(counters.rays, fits)) {
-    tracker.cross(state, *hit, scene.surface(*hit, link), link.d, counters, nullptr);
-  }
+  MediaWalk({scene, &tracker, counters, counters.rays}, state, LineWalk(scene, link, Exclusions{}))
+      .crossAll();
   return state;
 }
 

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "world/line_walk.h"
+#include "world/media_walk.h"
 #include "world/probe_directions.h"
 
 namespace pbrtmedia {
@@ -28,12 +28,7 @@ const Medium* endlessOf(const MediumState& state, const Ray& ray, RenderCounters
 const Medium* endlessAlong(const Scene& scene, const MediaTracker& tracker, MediumState state,
                            const Ray& ray) {
   RenderCounters counters;
-  LineWalk walk(scene, ray, Exclusions{});
-  const auto fits = [&](const SceneHit& h) { return tracker.fits(state, h, scene.surface(h, ray), ray.d); };
-  while (const auto hit = walk.next(counters.rays, fits)) {
-    tracker.cross(state, *hit, scene.surface(*hit, ray), ray.d, counters, nullptr);
-  }
-  tracker.escape(state, counters);
+  MediaWalk({scene, &tracker, counters, counters.rays}, state, LineWalk(scene, ray, Exclusions{})).crossAll();
   return endlessOf(state, ray, counters);
 }
 

@@ -19,7 +19,7 @@ namespace pbrtmedia {
 /// before the next is entered).
 class LineWalk {
  public:
-  /// `exclusions`: what the ray starts on or ends on. `scene` and `ray` are borrowed.
+  /// `exclusions`: what the ray starts on or ends on. `scene` is borrowed.
   LineWalk(const Scene& scene, const Ray& ray, const Exclusions& exclusions)
       : scene_(scene), ray_(ray), fixed_(exclusions), exclusions_(exclusions) {}
   /// Of a ray from the camera. Surfaces with a material that hold its origin, up to rounding, are left out:
@@ -29,16 +29,7 @@ class LineWalk {
     walk.isFromCamera_ = true;
     return walk;
   }
-  /// The rest of another walk, along the same line as it is kept elsewhere.
-  LineWalk(const LineWalk& walk, const Ray& sameRay)
-      : scene_(walk.scene_),
-        ray_(sameRay),
-        fixed_(walk.fixed_),
-        exclusions_(walk.exclusions_),
-        isFromCamera_(walk.isFromCamera_),
-        tMin_(walk.tMin_),
-        ended_(walk.ended_),
-        ahead_(walk.ahead_) {}
+  const Ray& ray() const { return ray_; }
 
   /// The nearest of the hits to come, without choosing among those that coincide with it: where the stretch
   /// before them ends. What lies beyond is not looked for yet, which saves a query where the path ends on the
@@ -84,7 +75,7 @@ class LineWalk {
   void forgetBefore(float t);
 
   const Scene& scene_;
-  const Ray& ray_;
+  Ray ray_;
   Exclusions fixed_, exclusions_;  ///< as given; with the crossings at tMin_ and beyond
   bool isFromCamera_ = false;
   float tMin_ = 0;

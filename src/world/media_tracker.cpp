@@ -7,6 +7,8 @@
 #include <limits>
 #include <sstream>
 
+#include "world/boundary_sides.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -16,36 +18,14 @@ namespace {
 constexpr float kRoundingSpacings = 8;
 constexpr float kSpacing = 0x1p-23f;
 
-bool isPresent(const Medium* m) { return m && m->overlap().mode != OverlapRule::Mode::Boundary; }
-
 std::string nameOf(const Medium* m) { return m ? '"' + m->name() + '"' : "vacuum"; }
 
-/// The two sides of a boundary as a ray meets them.
-struct Sides {
-  PlacedMedium near, far;
-  bool nearIsPresent, farIsPresent;  ///< of the rules Add and Priority
-  /// Whether a side says what the boundary medium is there. Where one side names a medium that is present
-  /// whatever else is there, vacuum on the other side only means "nothing added".
-  bool nearNamesBoundary() const { return !nearIsPresent && (near.medium || !farIsPresent); }
-  bool farNamesBoundary() const { return !farIsPresent && (far.medium || !nearIsPresent); }
-};
-
-Sides sidesOf(const SceneHit& hit, bool towardOutside) {
-  const MediumInterface& media = hit.primitive->media;
-  const PlacedMedium inside{media.inside, media.inside ? hit.insidePlacement : nullptr};
-  const PlacedMedium outside{media.outside, media.outside ? hit.outsidePlacement : nullptr};
-  Sides s{towardOutside ? inside : outside, towardOutside ? outside : inside, false, false};
-  s.nearIsPresent = isPresent(s.near.medium);
-  s.farIsPresent = isPresent(s.far.medium);
-  return s;
-}
-
-bool contradicts(const MediumState& state, const Sides& s) {
+bool contradicts(const MediumState& state, const BoundarySides& s) {
   if (s.nearIsPresent) return state.count(s.near) == 0;
   return s.nearNamesBoundary() && !(state.boundary() == s.near);
 }
 
-void noteMismatch(const MediumState& state, const Sides& sides, const Primitive& boundary, Point3f p,
+void noteMismatch(const MediumState& state, const BoundarySides& sides, const Primitive& boundary, Point3f p,
                   RenderCounters& counters, MismatchLog* log) {
   ++counters.mediumMismatches;
   if (!log || log->entries.size() >= log->capacity) return;
@@ -72,12 +52,12 @@ MediaTracker::MediaTracker(const Scene& scene, const Medium* cameraMedium)
     : boundaries_(scene.boundaries()), cameraMedium_(cameraMedium) {}
 
 bool MediaTracker::fits(const MediumState& state, const Meeting& at) {
-  return at.hit->primitive->media.same() || !contradicts(state, sidesOf(*at.hit, at.towardOutside));
+  return at.hit->primitive->media.same() || !contradicts(state, BoundarySides(*at.hit, at.towardOutside));
 }
 
 void MediaTracker::pass(MediumState& state, const Meeting& at, RenderCounters& counters, MismatchLog* log) {
   if (at.hit->primitive->media.same()) return;
-  const Sides s = sidesOf(*at.hit, at.towardOutside);
+  const BoundarySides s(*at.hit, at.towardOutside);
   if (contradicts(state, s)) noteMismatch(state, s, *at.hit->primitive, at.p, counters, log);
   if (s.nearIsPresent) state.leave(s.near);
   if (s.farIsPresent) state.enter(s.far);
@@ -120,7 +100,7 @@ void MediaTracker::leaveSurface(MediumState& state, const SceneHit& hit, const S
   if (hit.primitive->media.same()) return;
   const bool goesOutside = dot(wi, si.n) > 0, cameFromOutside = dot(si.wo, si.n) > 0;
   if (goesOutside != cameFromOutside) return pass(state, {&hit, si.p, goesOutside}, counters, log);
-  const Sides s = sidesOf(hit, !goesOutside);
+  const BoundarySides s = sidesOf(hit, !goesOutside);
   if (!s.nearNamesBoundary() || state.boundary() == s.near) return;
   noteMismatch(state, s, *hit.primitive, si.p, counters, log);
   state.setBoundary(s.near);
@@ -138,7 +118,7 @@ void MediaTracker::leaveAll(MediumState& state, const SceneHit& hit, const Surfa
   if (crosses(si.n)) {
     ahead[count++] = meeting(hit, si.p, si.n);
   } else if (!hit.primitive->media.same()) {
-    const Sides s = sidesOf(hit, !(dot(wi, si.n) > 0));
+    const BoundarySides s(hit, !(dot(wi, si.n) > 0));
     if (s.nearNamesBoundary() && !reaches(state, s.near, coincident, -si.wo)) {
       noteMismatch(state, s, *hit.primitive, si.p, counters, log);
       state.setBoundary(s.near);

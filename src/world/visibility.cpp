@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "world/line_walk.h"
+#include "world/media_walk.h"
 
 namespace pbrtmedia {
 
@@ -78,16 +78,15 @@ bool isActive(const PlacedMedium& medium, const MediumState& state) {
 Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
                    const PlacedMedium& medium, Span<double> span, MediumState state, Rng& rng,
                    RenderCounters& counters, MismatchLog* log) {
-  const Ray& ray = shadow.ray;
-  LineWalk walk(scene, ray, shadow.exclusions);
+  MediaWalk walk({scene, &tracker, counters, counters.shadowRays, log}, state,
+                 LineWalk(scene, shadow.ray, shadow.exclusions));
+  const Ray& ray = walk.ray();
   PassedStretches passed(ray);
   Rgb sum;
-  double t = 0;
-  const auto fits = [&](const SceneHit& h) { return tracker.fits(state, h, scene.surface(h, ray), ray.d); };
-  while (t < span.tMax) {
-    const std::optional<SceneHit> nearest = walk.peek(counters.shadowRays);
-    const double tEnd = std::max<double>(t, nearest ? nearest->t() : ray.tMax);
-    const double from = std::max(t, span.tMin), to = std::min(tEnd, span.tMax);
+  while (walk.t() < span.tMax) {
+    walk.ahead();
+    double t = walk.t();
+    const double from = std::max(t, span.tMin), to = std::min(walk.tEnd(), span.tMax);
     if (from < to && isActive(medium, state)) {
       passed.add(state, t, from);
       const Rgb through = passed.transmittance(rng, counters);
@@ -95,41 +94,31 @@ Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const Shadow
       sum += through * emissionOf(medium, state, ray, from, to, rng, counters);
       t = from;
     }
-    passed.add(state, t, tEnd);
-    const std::optional<SceneHit> hit = walk.next(counters.shadowRays, fits);
+    passed.add(state, t, walk.tEnd());
+    const std::optional<SceneHit> hit = walk.next();
     if (!hit || hit->primitive->material) return sum;
-    if (!hit->primitive->media.same()) {
-      tracker.cross(state, *hit, scene.surface(*hit, ray), ray.d, counters, log);
-    }
-    t = tEnd;
+    walk.cross(*hit);
   }
   return sum;
 }
 
 Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
                         MediumState& state, Rng& rng, RenderCounters& counters, MismatchLog* log) {
-  const Ray& ray = shadow.ray;
-  LineWalk walk(scene, ray, shadow.exclusions);
-  Rgb product(1.0f);
-  double t = 0;
-  const auto fits = [&](const SceneHit& h) { return tracker.fits(state, h, scene.surface(h, ray), ray.d); };
+  MediaWalk walk({scene, &tracker, counters, counters.shadowRays, log}, state,
+                 LineWalk(scene, shadow.ray, shadow.exclusions));
   const auto blocks = [&](const SceneHit& h) { return h.primitive->material || h.isHider(shadow.hider); };
+  Rgb product(1.0f);
   for (;;) {
-    const std::optional<SceneHit> nearest = walk.peek(counters.shadowRays);
+    const SceneHit* const nearest = walk.ahead();
     if (nearest && blocks(*nearest)) return {};
-    if (!nearest && ray.tMax == kInfinity) tracker.escape(state, counters);
-    const double tEnd = std::max<double>(t, nearest ? nearest->t() : ray.tMax);
     if (!state.isVacuum()) {
-      product *= MediaTracker::transmittance(state, ray, t, tEnd, rng, counters);
+      product *= MediaTracker::transmittance(state, walk.ray(), walk.t(), walk.tEnd(), rng, counters);
       if (product.isBlack()) return product;
     }
-    const std::optional<SceneHit> hit = walk.next(counters.shadowRays, fits);
+    const std::optional<SceneHit> hit = walk.next();
     if (!hit) return product;
     if (blocks(*hit)) return {};
-    if (!hit->primitive->media.same()) {
-      tracker.cross(state, *hit, scene.surface(*hit, ray), ray.d, counters, log);
-    }
-    t = tEnd;
+    walk.cross(*hit);
   }
 }
 

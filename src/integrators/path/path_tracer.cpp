@@ -44,10 +44,10 @@ PathTracer::PathTracer(const PathSetup& setup, const RayDifferential& ray, const
       ray_(ray),
       state_(start) {}
 
-Rgb PathTracer::trace() { return finish(travel()); }
+Rgb PathTracer::trace() { return scatterFrom(flyToEvent()); }
 
-Rgb PathTracer::finish(Event event) {
-  for (;; event = travel()) {
+Rgb PathTracer::scatterFrom(Event event) {
+  for (;; event = flyToEvent()) {
     switch (event) {
       case Event::End:
         return radiance_;
@@ -63,72 +63,68 @@ Rgb PathTracer::finish(Event event) {
 
 /// Follows the ray through boundaries without material to the next scattering event, and collects what emits
 /// on the way. Crossings cost no depth and no roulette.
-PathTracer::Event PathTracer::travel() {
+PathTracer::Event PathTracer::flyToEvent() {
   if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters() && !setup_.mediaEmit) return Event::End;
   const bool isFromCamera = bounces_ == 0;
-  Travel way{
-      isFromCamera ? LineWalk::fromCamera(setup_.scene, ray_) : LineWalk(setup_.scene, ray_, rayStart_),
-      startPlane_};
-  return travelOn(way);
+  Way way{{walkContext(), state_,
+           isFromCamera ? LineWalk::fromCamera(setup_.scene, ray_) : LineWalk(setup_.scene, ray_, rayStart_)},
+          startPlane_};
+  return followWay(way);
 }
 
-PathTracer::Event PathTracer::travelOn(Travel& way) {
-  LineWalk& walk = way.walk;
-  BoundaryPlane& start = way.start;
-  double& t = way.t;
-  const auto fits = [&](const SceneHit& h) {
-    return !setup_.media || setup_.media->fits(state_, h, setup_.scene.surface(h, ray_), ray_.d);
-  };
+MediaWalk::Context PathTracer::walkContext() const {
+  return {setup_.scene, setup_.media, counters_, counters_.rays, context_.mismatches};
+}
+
+PathTracer::Event PathTracer::followWay(Way& way) {
+  MediaWalk& walk = way.walk;
   for (;;) {
     leaveIfAbandoned();
-    const std::optional<SceneHit> nearest = walk.peek(counters_.rays);
-    const double tEnd = nearest ? std::max<double>(t, nearest->t()) : kInfinity;
-    if (!nearest && setup_.media) setup_.media->escape(state_, counters_);
+    const SceneHit* const nearest = walk.ahead();
     if (seesOnlyEmission()) {
       const bool blocked = nearest && nearest->primitive->material && !nearest->isEmitter();
       if (blocked || (!nearest && setup_.scene.infiniteLights().empty())) {
-        if (setup_.mediaEmit) collectMediumEmission(t, tEnd);
+        if (setup_.mediaEmit) collectMediumEmission(walk.t(), walk.tEnd());
         return Event::End;
       }
     }
     if (!state_.isVacuum()) {
       Event event = Event::End;
-      if (!passMedium(way, tEnd, nearest ? &*nearest : nullptr, event)) return event;
+      if (!passMedium(way, nearest, event)) return event;
     }
-    const std::optional<SceneHit> hit = walk.next(counters_.rays, fits);
+    const std::optional<SceneHit> hit = walk.next();
     if (!hit) {
       collectBackground();
       return Event::End;
     }
     const bool scatters = hit->primitive->material != nullptr;
-    if (scatters || hit->isEmitter() || setup_.media) {
-      const SurfaceInteraction si = surfaceAt(*hit);
-      if (hit->isEmitter()) collectEmission(way, *hit, si);
-      if (scatters) {
-        if (seesOnlyEmission()) return Event::End;
-        surface_ = {*hit, si, {}};
-        if (setup_.media && setup_.scene.hasMediumBoundaries()) {
-          surface_.coincident = walk.coincidentWith(*hit, si, counters_.rays);
-        }
-        return Event::Surface;
-      }
-      if (setup_.media) {
-        setup_.media->cross(state_, *hit, si, ray_.d, counters_, context_.mismatches);
-        start = planeAt(si, ray_.d);
-      }
+    if (!scatters && !hit->isEmitter() && !setup_.media) {
+      walk.cross(*hit);
+      continue;
     }
-    t = tEnd;
+    const SurfaceInteraction si = surfaceAt(*hit);
+    if (hit->isEmitter()) collectEmission(way, *hit, si);
+    if (scatters) {
+      if (seesOnlyEmission()) return Event::End;
+      surface_ = {*hit, si, {}};
+      if (setup_.media && setup_.scene.hasMediumBoundaries())
+        surface_.coincident = walk.coincidentWith(*hit, si);
+      return Event::Surface;
+    }
+    walk.cross(*hit, si);
+    way.start = planeAt(si, ray_.d);
   }
 }
 
-/// The media between two surfaces. True: the path passes. False: `event` tells whether it scatters or ends.
-bool PathTracer::passMedium(const Travel& way, double tMax, const SceneHit* hit, Event& event) {
+/// The media between two surfaces, `hit` the one at the end. True: the path passes. False: `event` tells
+/// whether it scatters or ends.
+bool PathTracer::passMedium(const Way& way, const SceneHit* hit, Event& event) {
   if (!seesOnlyEmission() && splitsChannels()) {
     followChannels(way);
     event = Event::End;
     return false;
   }
-  const double tMin = way.t;
+  const double tMin = way.walk.t(), tMax = way.walk.tEnd();
   const BoundaryPlane& start = way.start;
   if (setup_.mediaEmit) collectMediumEmission(tMin, tMax);
   if (seesOnlyEmission()) {
@@ -179,15 +175,15 @@ bool PathTracer::splitsChannels() const {
 
 /// The rest of the path once for each channel. A channel alone is what free flights choose distances for, as
 /// they are told its throughput.
-void PathTracer::followChannels(const Travel& way) {
+void PathTracer::followChannels(const Way& way) {
   for (std::size_t c = 0; c < 3; ++c) {
     if (beta_[c] == 0) continue;
     PathTracer one(*this);
     one.radiance_ = Rgb();
     one.beta_ = Rgb();
     one.beta_[c] = beta_[c];
-    Travel rest{LineWalk(way.walk, one.ray_), way.start, way.t, way.passedEmitters};
-    radiance_ += one.finish(one.travelOn(rest));
+    Way rest{{way.walk, one.walkContext(), one.state_}, way.start, way.passedEmitters};
+    radiance_ += one.scatterFrom(one.followWay(rest));
   }
 }
 

@@ -7,8 +7,7 @@
 #include "integrators/path/path.h"
 #include "integrators/path/path_samples.h"
 #include "lighting/position_lights.h"
-#include "world/line_walk.h"
-#include "world/media_tracker.h"
+#include "world/media_walk.h"
 #include "world/visibility.h"
 
 namespace pbrtmedia {
@@ -50,26 +49,27 @@ class PathTracer {
   };
   enum class Event { End, Surface, Medium };
 
-  /// A free flight between two scattering events, as far as it has come.
-  struct Travel {
-    LineWalk walk;
+  /// The way from one scattering event toward the next.
+  struct Way {
+    MediaWalk walk;
     BoundaryPlane start;  ///< of the stretch at hand
-    double t = 0;
     /// Emitters without material that the ray has met, by PrimitiveId::geometry: the rest of each is hidden.
     std::vector<std::uint32_t> passedEmitters{};
   };
 
-  Rgb finish(Event event);
+  MediaWalk::Context walkContext() const;
+  /// Scatters from `event` on until the path ends; what it has gathered.
+  Rgb scatterFrom(Event event);
   // Each path event is one function. Those that return bool tell whether the path goes on.
-  Event travel();
-  Event travelOn(Travel& way);
-  bool passMedium(const Travel& way, double tMax, const SceneHit* hit, Event& event);
+  Event flyToEvent();
+  Event followWay(Way& way);
+  bool passMedium(const Way& way, const SceneHit* hit, Event& event);
   bool splitsChannels() const;
-  void followChannels(const Travel& way);
+  void followChannels(const Way& way);
   Point3f mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
   void lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
   void collectMediumEmission(double tMin, double tMax);
-  void collectEmission(Travel& way, const SceneHit& hit, const SurfaceInteraction& si);
+  void collectEmission(Way& way, const SceneHit& hit, const SurfaceInteraction& si);
   void collectBackground();
   bool scatterOnSurface();
   bool scatterInMedium();

@@ -166,7 +166,7 @@ float PathTracer::mediumEmissionWeight(const MediumLight& source, std::size_t li
 }
 
 /// An emitter without material illuminates by its side that is met first. Directly seen are all.
-void PathTracer::collectEmission(Travel& way, const SceneHit& hit, const SurfaceInteraction& si) {
+void PathTracer::collectEmission(Way& way, const SceneHit& hit, const SurfaceInteraction& si) {
   if (!isDirect_ && hit.light != SceneHit::kNoLight && !hit.primitive->material) {
     if (std::ranges::find(way.passedEmitters, hit.hit.id.geometry) != way.passedEmitters.end()) return;
     way.passedEmitters.push_back(hit.hit.id.geometry);
