@@ -12,6 +12,7 @@
 #include "base/diagnostics.h"
 #include "base/files.h"
 #include "base/hash.h"
+#include "fields/learned_bounds.h"
 
 namespace pbrtmedia {
 namespace {

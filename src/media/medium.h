@@ -12,13 +12,14 @@
 #include "base/rng.h"
 #include "base/segment.h"
 #include "base/statistics.h"
-#include "fields/exploration.h"
-#include "fields/learned_bounds.h"
-#include "media/emission/emission_volume.h"
-#include "media/phase/phase_function.h"
 #include "spectrum/rgb.h"
 
 namespace pbrtmedia {
+
+class EmissionVolume;
+class LearnedBounds;
+class PhaseFunction;
+struct Exploration;
 
 /// The outcome of a free flight along a segment.
 struct FreeFlight {
@@ -72,7 +73,7 @@ struct OverlapRule {
 /// segment. Immutable while a pass is rendered, thread-safe; random numbers and counters are arguments.
 class Medium {
  public:
-  virtual ~Medium() = default;
+  virtual ~Medium();
   virtual std::string_view typeName() const = 0;
   const std::string& name() const { return name_; }
   OverlapRule overlap() const { return overlap_; }
@@ -106,10 +107,7 @@ class Medium {
   }
   /// For light sampling; null when there is nothing to sample. A medium without an end of its own is sampled
   /// inside `boundary`.
-  virtual std::unique_ptr<const EmissionVolume> emissionVolume(const Bounds3f& boundary) const {
-    (void)boundary;
-    return nullptr;
-  }
+  virtual std::unique_ptr<const EmissionVolume> emissionVolume(const Bounds3f& boundary) const;
 
   /// Whether transmittances or weights of flights may be negative, as those of some unbiased estimators are.
   virtual bool mayBeNegative() const { return false; }

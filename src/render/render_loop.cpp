@@ -11,6 +11,8 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "fields/exploration.h"
+#include "fields/learned_bounds.h"
+#include "media/medium.h"
 
 namespace pbrtmedia {
 namespace {

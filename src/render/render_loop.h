@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cameras/camera.h"
+#include "fields/learned_bounds.h"
 #include "film/film.h"
 #include "render/integrator.h"
 #include "world/media_tracker.h"

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "world/alpha_filter.h"
 
+#include "shapes/shape.h"
+#include "shapes/surface_interaction.h"
+#include "textures/texture.h"
+
 namespace pbrtmedia {
 
 AlphaFilter::AlphaFilter(const Primitive& primitive) : primitive_(primitive) {

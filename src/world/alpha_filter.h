@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "accelerators/accelerator.h"
+#include "shapes/surface_interaction.h"
 #include "world/primitive.h"
 
 namespace pbrtmedia {

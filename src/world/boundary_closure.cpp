@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "shapes/shape.h"
+#include "textures/texture.h"
 #include "world/edge_balance.h"
 
 namespace pbrtmedia {

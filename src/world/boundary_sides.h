@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include "media/medium.h"
 #include "world/medium_state.h"
 
 namespace pbrtmedia {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "shapes/shape.h"
 #include "world/scene.h"
 
 namespace pbrtmedia {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "media/medium.h"
 #include "world/boundary_sides.h"
 #include "world/media_walk.h"
 #include "world/probe_directions.h"

@@ -3,6 +3,8 @@
 
 #include <map>
 
+#include "base/rng.h"
+#include "media/medium.h"
 #include "world/media_walk.h"
 #include "world/probe_directions.h"
 

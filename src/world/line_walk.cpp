@@ -5,6 +5,8 @@
 #include <array>
 #include <span>
 
+#include "shapes/shape.h"
+
 namespace pbrtmedia {
 namespace {
 

@@ -6,6 +6,8 @@
 
 #include "base/rng.h"
 #include "base/warp.h"
+#include "media/medium.h"
+#include "shapes/shape.h"
 #include "world/line_walk.h"
 
 namespace pbrtmedia {

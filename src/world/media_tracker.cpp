@@ -7,6 +7,9 @@
 #include <limits>
 #include <sstream>
 
+#include "base/rng.h"
+#include "media/medium.h"
+#include "spectrum/rgb.h"
 #include "world/boundary_sides.h"
 
 namespace pbrtmedia {
@@ -100,7 +103,7 @@ void MediaTracker::leaveSurface(MediumState& state, const SceneHit& hit, const S
   if (hit.primitive->media.same()) return;
   const bool goesOutside = dot(wi, si.n) > 0, cameFromOutside = dot(si.wo, si.n) > 0;
   if (goesOutside != cameFromOutside) return pass(state, {&hit, si.p, goesOutside}, counters, log);
-  const BoundarySides s = sidesOf(hit, !goesOutside);
+  const BoundarySides s(hit, !goesOutside);
   if (!s.nearNamesBoundary() || state.boundary() == s.near) return;
   noteMismatch(state, s, *hit.primitive, si.p, counters, log);
   state.setBoundary(s.near);

@@ -4,6 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rng.h"
+#include "media/medium.h"
+#include "media/phase/phase_function.h"
+#include "spectrum/rgb.h"
 #include "world/coincident_surfaces.h"
 #include "world/medium_state.h"
 

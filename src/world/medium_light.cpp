@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "media/emission/emission_volume.h"
 #include "shapes/shape.h"
 
 namespace pbrtmedia {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lights/light.h"
+#include "media/emission/emission_volume.h"
 #include "media/medium.h"
 #include "world/medium_state.h"
 #include "world/primitive.h"

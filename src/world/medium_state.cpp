@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "world/medium_state.h"
 
+#include "media/medium.h"
+
 namespace pbrtmedia {
 
 void MediumState::List::push(PlacedMedium m) {

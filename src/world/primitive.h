@@ -4,13 +4,16 @@
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "lights/light.h"
-#include "materials/material.h"
-#include "media/medium.h"
-#include "shapes/shape.h"
-#include "textures/texture.h"
 
 namespace pbrtmedia {
+
+class AreaLight;
+class Material;
+class Medium;
+class Shape;
+template <class T>
+class Texture;
+using FloatTexture = Texture<float>;
 
 /// The media on the two sides of a surface; null: vacuum. Inside is the side opposite the geometric normal.
 struct MediumInterface {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "world/scene.h"
 
-#include <algorithm>
 
+#include "shapes/shape.h"
+#include <algorithm>
 #include "world/scene_parts.h"
 
 namespace pbrtmedia {

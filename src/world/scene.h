@@ -10,12 +10,15 @@
 #include "accelerators/accelerator.h"
 #include "base/animated_transform.h"
 #include "base/segment.h"
+#include "shapes/surface_interaction.h"
 #include "world/boundary_closure.h"
 #include "world/boundary_vicinity.h"
 #include "world/primitive.h"
 
 namespace pbrtmedia {
 
+class Light;
+class Medium;
 class MediumLight;
 struct PlacedMedium;
 

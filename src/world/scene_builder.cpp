@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "shapes/shape.h"
 #include "world/scene_parts.h"
 
 namespace pbrtmedia {

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "lights/light.h"
+#include "spectrum/rgb.h"
 #include "world/media_walk.h"
 
 namespace pbrtmedia {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include "lights/light.h"
+#include "spectrum/rgb.h"
 #include "world/media_tracker.h"
 
 namespace pbrtmedia {

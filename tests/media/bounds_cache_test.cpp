@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/diagnostics.h"
+#include "fields/learned_bounds.h"
 #include "media/grid_medium.h"
 #include "support/grids.h"
 #include "support/temporary_folder.h"

@@ -5,6 +5,8 @@
 
 #include "base/warp.h"
 #include "integrators/direct/specular_recursion.h"
+#include "lights/light.h"
+#include "materials/bsdf.h"
 #include "world/line_walk.h"
 
 namespace pbrtmedia {

@@ -4,6 +4,9 @@
 #include <utility>
 
 #include "base/interruption.h"
+#include "lights/light.h"
+#include "materials/bsdf.h"
+#include "materials/material.h"
 #include "world/line_walk.h"
 
 namespace pbrtmedia {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "integrators/path/path_samples.h"
+#include "lights/light.h"
+#include "materials/bsdf.h"
 #include "render/integrator.h"
 #include "world/scene.h"
 #include "world/visibility.h"

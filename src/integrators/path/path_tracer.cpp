@@ -2,6 +2,10 @@
 #include "integrators/path/path_tracer.h"
 
 #include "base/interruption.h"
+#include "materials/bsdf.h"
+#include "materials/material.h"
+#include "media/medium.h"
+#include "media/phase/phase_function.h"
 
 namespace pbrtmedia {
 namespace {

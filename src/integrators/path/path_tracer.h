@@ -7,6 +7,8 @@
 #include "integrators/path/path.h"
 #include "integrators/path/path_samples.h"
 #include "lighting/position_lights.h"
+#include "materials/bsdf.h"
+#include "media/phase/phase_function.h"
 #include "world/media_walk.h"
 #include "world/visibility.h"
 

@@ -4,6 +4,7 @@
 
 #include "base/warp.h"
 #include "integrators/path/path_tracer.h"
+#include "materials/bsdf.h"
 #include "world/medium_light.h"
 
 namespace pbrtmedia {
