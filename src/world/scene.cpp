@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "world/scene.h"
 
-
-#include "shapes/shape.h"
 #include <algorithm>
+#include "shapes/shape.h"
 #include "world/scene_parts.h"
 
 namespace pbrtmedia {
