@@ -2,6 +2,7 @@
 #include "world/scene.h"
 
 #include <algorithm>
+
 #include "shapes/shape.h"
 #include "world/scene_parts.h"
 
