@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "construct/attempt.h"
+#include "lights/light.h"
+#include "materials/material.h"
 #include "render/render_loop.h"
 
 // What constructed objects do, as lists of numbers: two scenes that differ in one parameter must differ here.
