@@ -151,6 +151,22 @@ TEST(ConstructEndlessMedium, IsFoundBehindBoundariesToo) {
   EXPECT_TRUE(clearing.warns("\"fog\", which has no end")) << clearing.messages();
 }
 
+TEST(ConstructEndlessMedium, IsNotWhatAFewDirectionsSee) {
+  // Fog without end behind one side of a cube around the camera: light comes in by the others.
+  for (const char* square : {"1 -1 -1  1 1 -1  1 1 1  1 -1 1", "-1 1 -1  1 1 -1  1 1 1  -1 1 1",
+                             "-1 -1 1  1 -1 1  1 1 1  -1 1 1", "-1 -1 -1  -1 1 -1  -1 1 1  -1 -1 1",
+                             "-1 -1 -1  1 -1 -1  1 -1 1  -1 -1 1", "-1 -1 -1  1 -1 -1  1 1 -1  -1 1 -1"}) {
+    for (const char* media : {"\"fog\" \"\"", "\"\" \"fog\""}) {
+      const Attempt a =
+          attempt(kOnly + kFog + "WorldBegin LightSource \"infinite\" MediumInterface " + media +
+                  " Material \"none\" Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] "
+                  "\"point P\" [ " +
+                  square + " ] MediumInterface \"\" \"\" WorldEnd");
+      EXPECT_FALSE(a.warns("which has no end")) << square << media << a.messages();
+    }
+  }
+}
+
 TEST(ConstructEndlessMedium, SaysNothingWhereLightGetsThrough) {
   const std::string light = "LightSource \"infinite\" ";
   const std::string shell =

@@ -2,6 +2,8 @@
 #include "construct/media.h"
 
 #include "construct/probe.h"
+#include "media/medium.h"
+#include "media/phase/henyey_greenstein.h"
 #include "media/presets.h"
 
 namespace pbrtmedia::test {
@@ -65,12 +67,28 @@ TEST(ConstructMedium, EveryParameterHasItsEffect) {
                               "\"float phaseweight\" [ 1 0 ]"},
               {kHomogeneous, kHomogeneous + "\"string phase\" \"isotropic\""},
               {kHomogeneous, kHomogeneous + "\"string preset\" \"Wholemilk\""},
+              {kHomogeneous + "\"rgb sigma_a\" [ 2 4 6 ] \"rgb sigma_s\" [ 3 2 1 ]",
+               kHomogeneous + "\"rgb sigma_a\" [ 1 2 3 ] \"rgb sigma_s\" [ 1.5 1 0.5 ] \"float scale\" 2"},
               {kHomogeneous + "\"integer priority\" 2",
                kHomogeneous + "\"string overlap\" \"priority\" \"integer priority\" 2"},
               {kHomogeneous + "\"string preset\" \"Skin1\" \"rgb sigma_a\" [ 1 2 3 ]",
                kHomogeneous + "\"rgb sigma_s\" [ 0.74 0.88 1.01 ] \"rgb sigma_a\" [ 1 2 3 ]"},
               {kGrid, kGrid + "\"point p0\" [ 0 0 0 ] \"point p1\" [ 1 1 1 ] \"string border\" \"zero\""}},
              with, media);
+}
+
+TEST(ConstructMedium, EveryLobeHasItsOwnAsymmetry) {
+  const Attempt a = with(kHomogeneous +
+                         "\"string phase\" [ \"henyeygreenstein\" \"isotropic\" \"henyeygreenstein\" ] "
+                         "\"float g\" [ 0.5 -0.3 ] \"float phaseweight\" [ 1 0 3 ]");
+  ASSERT_TRUE(a.isSilent()) << a.messages();
+  const PhaseFunction& phase = a.made->scene->media()[0]->phase();
+  const Vector3f wo(0, 0, 1);
+  for (const Vector3f wi : {Vector3f(0, 0, 1), Vector3f(0, 0, -1), Vector3f(0, 0.6f, 0.8f)}) {
+    const float expected =
+        0.25f * HenyeyGreenstein(0.5f).evaluate(wo, wi) + 0.75f * HenyeyGreenstein(-0.3f).evaluate(wo, wi);
+    EXPECT_NEAR(phase.evaluate(wo, wi), expected, 1e-6f) << wi;
+  }
 }
 
 TEST(ConstructMedium, KnowsEveryPreset) {

@@ -130,6 +130,19 @@ TEST_F(ConstructTexture, EveryParameterHasItsEffectInBothFlavours) {
   }
 }
 
+TEST_F(ConstructTexture, WrapsAsItsWordSays) {
+  // Far beyond the picture: nothing, or the texel in its corner.
+  const std::string far =
+      "\"imagemap\" \"string filename\" \"map.pfm\" \"float uscale\" 0 \"float vscale\" 0 "
+      "\"float udelta\" 9.125 \"float vdelta\" 9.125 \"string wrap\" ";
+  const auto constant = [](const std::string& rgb) {
+    return shown("spectrum", "\"constant\" \"rgb value\" [ " + rgb + " ]");
+  };
+  expectSame({{shown("spectrum", far + "\"black\""), constant("0 0 0")},
+              {shown("spectrum", far + "\"clamp\""), constant("0.1875 0.425 0.2")}},
+             maker(), values);
+}
+
 TEST_F(ConstructTexture, SomeClassesAreSpectraOnly) {
   expectEffects({{shown("spectrum", "\"uv\""), shown("spectrum", "\"uv\" \"float uscale\" 3")},
                  {shown("color", "\"uv\""), shown("color", "\"uv\" \"string mapping\" \"planar\"")},

@@ -43,9 +43,10 @@ TEST(ConstructWorld, InstancesNest) {
   const std::string nested =
       object("inner", kDisk) +
       object("outer", "Translate 0.5 0 0 " + instance("inner") + "Translate -1 0 0 " + instance("inner"));
-  const Attempt a = with(nested + "Translate 0 0 0.5 " + instance("outer"));
+  const std::string place = "Translate 0 0 0.5 Rotate 70 1 2 3 ";  // a turn and a shift: their order is seen
+  const Attempt a = with(nested + place + instance("outer"));
   ASSERT_TRUE(a.made) << a.messages();
-  const Attempt flat = with("Translate 0.5 0 0.5 " + kDisk + "Translate -1 0 0 " + kDisk);
+  const Attempt flat = with(place + "Translate 0.5 0 0 " + kDisk + "Translate -1 0 0 " + kDisk);
   std::uint64_t queries = 0;
   for (const Ray& ray : probingRays()) {
     EXPECT_EQ(a.made->scene->occluded(ray, 0, Exclusions{}, queries),
@@ -161,6 +162,9 @@ TEST(ConstructWorld, AreaLightsOnMovingShapesAndInObjectsWarn) {
   const Attempt moving = with("AreaLightSource \"diffuse\" " + kMove + kDisk);
   ASSERT_TRUE(moving.warns("area lights on moving shapes are ignored")) << moving.messages();
   EXPECT_EQ(moving.made->scene->lights().size(), 1u);
+  for (const auto& group : moving.made->scene->primitiveGroups()) {
+    for (const Primitive* p : group) EXPECT_TRUE(p->areaLights.empty()) << "nor is it seen that they shine";
+  }
   const Attempt inObject = with(object("o", "AreaLightSource \"diffuse\" " + kDisk) + instance("o"));
   ASSERT_TRUE(inObject.warns("is seen but lights nothing")) << inObject.messages();
   EXPECT_EQ(inObject.made->scene->lights().size(), 1u);

@@ -11,6 +11,8 @@
 #include "support/render_scene.h"
 #include "support/temporary_folder.h"
 #include "vdb2pbrt/conversion.h"
+#include "vdb2pbrt/vdb_density.h"
+#include "vdb2pbrt/vdb_file.h"
 
 namespace pbrtmedia {
 namespace {
@@ -108,6 +110,19 @@ TEST_F(Vdb2PbrtLook, NormalisedTemperaturesBecomeKelvinWithANotice) {
   EXPECT_NEAR(emissionAt(included(), above_).r, blackbodyToRgb(1500, 1).r, 2e-3f * blackbodyToRgb(1500, 1).r);
   options.temperatureScale = 100;
   expectPart(convert(options), "stays at or below 100 K: nothing glows");
+  // Less an offset of a quarter the hottest is a half: what makes 2200 K of that is told.
+  ConversionOptions shifted;
+  shifted.grids.temperature = "temp";
+  shifted.temperatureOffset = 0.25f;
+  expectPart(convert(shifted), "--temperaturescale 4400");
+}
+
+TEST_F(Vdb2PbrtLook, QuantilesCountVoxelsFromTheSmallest) {
+  test::writeVdb(in("t.vdb"), VdbKind::TilesOnly);  // 128^3 voxels of 0.5, 3072 of 1.25
+  const VdbDensity grid = VdbFile(in("t.vdb")).read(0);
+  constexpr float kBin = 1.25f / 4096;
+  for (const double most : {0.001, 0.5, 0.998}) EXPECT_NEAR(grid.quantile(most), 0.5f, kBin) << most;
+  for (const double few : {0.999, 1.0}) EXPECT_NEAR(grid.quantile(few), 1.25f, kBin) << few;
 }
 
 TEST_F(Vdb2PbrtLook, FactorsAloneAndWithTemperatures) {

@@ -58,6 +58,14 @@ TEST(Resize, LanczosFollowsARampAwayFromTheEdges) {
   for (int x = 20; x < 108; ++x) EXPECT_NEAR(out.at(x, 0, 0), (static_cast<float>(x) + 0.5f) / 2, 0.02f);
 }
 
+TEST(Resize, LanczosAveragesWhatIsTooFineForFewerPixels) {
+  // Columns 0 and 1 by turns; a filter that is not widened takes every third of them as it is.
+  Image columns(96, 1, {"Y"});
+  for (int x = 0; x < 96; ++x) columns.at(x, 0, 0) = static_cast<float>(x % 2);
+  const Image out = resize(columns, 32, 1, ResizeFilter::Lanczos);
+  for (int x = 4; x < 28; ++x) EXPECT_NEAR(out.at(x, 0, 0), 0.5f, 0.03f) << x;
+}
+
 TEST(Resize, ResetsWindowsAndKeepsMetadata) {
   Image image = patternImage(4, 4);
   image.dataWindow = {{2, 2}, {6, 6}};

@@ -58,6 +58,13 @@ TEST(Despike, ReplacesOnlyBrightPixelsByTheMedian) {
   EXPECT_EQ(image.data(), (std::vector<float>{1, 2, 3, 4, 5, 5, 6, 7, 8}));
 }
 
+TEST(Despike, TakesAPixelExactlyAtTheLevelForASpike) {
+  Image image(3, 1, {"Y"});
+  image.data() = {1, 50, 2};
+  despike(image, image.rgb(1, 0).luminance());
+  EXPECT_EQ(image.data(), (std::vector<float>{1, 2, 2}));
+}
+
 TEST(Despike, ReadsTheUnfilteredImage) {
   Image image(3, 1, {"Y"});
   image.data() = {100, 100, 1};

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "lighting/position_lights.h"
+#include "lights/distant.h"
 #include "lights/projection.h"
 #include "lights/spot.h"
 #include "media/grid_medium.h"
@@ -301,8 +302,11 @@ TEST(PositionLights, DensitiesOfManyLightsAreThoseThatAreSampled) {
                           PointLight::Params{.intensity = Rgb(1 + rng.uniform()),
                                              .from = {rng.uniform(), rng.uniform(), 3 * rng.uniform()}});
     }
+    const DistantLight sun(Transform(), {});  // lights of no position are passed over
+    lights.push_back(&sun);
     for (const PointLight& p : points) lights.push_back(&p);
     const PositionLights sampled(lights);
+    EXPECT_FALSE(sampled.contains(0));
     const Ray ray = rayOf({0, 0, -1}, {0, 0.1f, 1});
     RunningStats volume;  // the mean of 1/pdf is the length for each light
     for (int i = 0; i < 20000; ++i) {

@@ -51,6 +51,34 @@ TEST(Path, DepthOneIsDirectLight) {
   EXPECT_GT(std::abs(off.z()), kMaxAbsZ) << off;
 }
 
+TEST(Path, WhatASplitLightIlluminatesDoesNotDependOnTheNumberOfLights) {
+  // Light samples find the lower side of the lamp emitting, rays that hit it the upper one: the weights of
+  // light samples alone decide what the floor gets, and PBRT-v3's leave out the probability of choosing the
+  // lamp.
+  const auto floor = [](bool withOther) {
+    SceneKit kit;
+    kit.builder.addPrimitive({.shape = kit.square(0, 10), .material = kit.matte(0.5f)});
+    TriangleMesh::Params mesh;
+    mesh.P = {{-1, -1, 1}, {-1, 1, 1}, {1, 1, 1}, {1, -1, 1}};
+    mesh.N = std::vector<Normal3f>(4, Normal3f(0, 0, -1));
+    mesh.indices = {0, 1, 2, 0, 2, 3};
+    const Shape* lamp =
+        kit.builder.own(std::make_unique<TriangleMesh>(std::move(mesh), ShapePlacement{Transform(), true}));
+    kit.builder.addPrimitive(
+        {.shape = lamp, .material = kit.black(), .areaLights = kit.emitters(lamp, Rgb(3))});
+    if (withOther) kit.pointLight({0, 0, 5}, 1e-9f);
+    const auto scene = kit.finish();
+    EXPECT_TRUE(scene->lights()[0]->isSplit());
+    return estimate(*makePath(*scene, {.maxDepth = 1}), rayOf({0.3f, 0.1f, 0.5f}, {0, 0, -1}), 1 << 16).red;
+  };
+  const RunningStats alone = floor(false), accompanied = floor(true);
+  EXPECT_GT(alone.mean(), 0.1);
+  const double difference = alone.mean() - accompanied.mean(),
+               error = std::hypot(alone.standardError(), accompanied.standardError());
+  EXPECT_LT(std::abs(difference), kMaxAbsZ * error) << alone.mean() << " and " << accompanied.mean();
+  EXPECT_LT(kMaxAbsZ * error, 0.05 * alone.mean()) << "a twentieth must be seen";
+}
+
 TEST(Path, IntersectsTheLightInTheLastVertexToo) {
   // A huge lamp close by: light samples alone, weighted by the power heuristic, would miss much.
   const auto scene = floorUnderLamp(0.5f, 0.05f);

@@ -218,6 +218,20 @@ TEST(SpatialLightSelector, FillsOnlyTheVoxelsThatAreAskedFor) {
   EXPECT_EQ(selector.filledVoxels(), 2u);
 }
 
+TEST(SpatialLightSelector, KeepsVoxelsApartInABoxOfUnequalSides) {
+  const Lights lights;
+  const SpatialLightSelector selector(lights.all(), {{0, 0, 0}, {8, 4, 2}});
+  ASSERT_EQ(selector.resolution(), (Point3i{64, 32, 16}));
+  std::size_t asked = 0;
+  for (int z = 0; z < 16; ++z) {
+    for (int y = 0; y < 32; ++y) {
+      const auto middle = [](int voxel) { return (static_cast<float>(voxel) + 0.5f) / 8; };
+      selector.probability({middle(5), middle(y), middle(z)}, 0);
+      EXPECT_EQ(selector.filledVoxels(), ++asked) << y << ' ' << z;
+    }
+  }
+}
+
 TEST(SpatialLightSelector, AnswersTheSameWhateverThreadAsksFirst) {
   const Lights lights;
   const SpatialLightSelector alone(lights.all(), kBox), shared(lights.all(), kBox);

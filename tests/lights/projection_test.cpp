@@ -77,6 +77,14 @@ TEST(ProjectionLight, PowerBoundsTheWindowByItsCorner) {
   expectRgb(light.power(), static_cast<float>(2 * kPi * (1 - 1 / std::sqrt(3.0)) * 2.5) * Rgb{1, 2, 3});
 }
 
+TEST(ProjectionLight, PowerKnowsThatAPictureIsWiderThanHigh) {
+  // fov 90 over the height: the corner direction is (2, 1, 1), cosine 1/√6.
+  Image wide(4, 2);
+  for (float& v : wide.data()) v = 1;
+  const ProjectionLight light(Transform(), {.intensity = {1, 2, 3}, .fov = 90, .map = wide});
+  expectRgb(light.power(), static_cast<float>(2 * kPi * (1 - 1 / std::sqrt(6.0))) * Rgb{1, 2, 3});
+}
+
 TEST(ProjectionLight, RefusesBadFovTransformAndMap) {
   EXPECT_THROW(ProjectionLight(Transform(), {.fov = 0}), std::invalid_argument);
   EXPECT_THROW(ProjectionLight(Transform(), {.fov = 180}), std::invalid_argument);

@@ -346,6 +346,29 @@ TEST_F(Pbrt, WritesStatisticsAsJson) {
   EXPECT_GT(render.at("peakMemoryBytes").get<std::size_t>(), 1u << 20);
 }
 
+TEST_F(Pbrt, WritesEachCountUnderItsOwnName) {
+  // A wall before the left half of the picture: every sample is a ray, every other meets the wall and asks
+  // for the light.
+  folder_.write(
+      "wall.pbrt",
+      "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 8\n"
+      "Sampler \"random\" \"integer pixelsamples\" 4 Integrator \"whitted\" Camera \"orthographic\"\n"
+      "WorldBegin\nLightSource \"point\" \"point from\" [ 0 0 -1 ]\nShape \"trianglemesh\" "
+      "\"point P\" [ -9 -9 1  0 -9 1  0 9 1  -9 9 1 ] \"integer indices\" [ 0 1 2 0 2 3 ]\nWorldEnd\n");
+  ASSERT_EQ(pbrt("--stats s.json wall.pbrt").status, 0);
+  const auto json = nlohmann::json::parse(folder_.read("s.json"));
+  const auto& counters = json.at("renders").at(0).at("counters");
+  constexpr int kSamples = 16 * 8 * 4;
+  EXPECT_EQ(counters.at("cameraSamples"), kSamples);
+  EXPECT_EQ(counters.at("rays"), kSamples);
+  EXPECT_EQ(counters.at("shadowRays"), kSamples / 2);
+  EXPECT_EQ(counters.at("surfaceScatterings"), kSamples / 2);
+  for (const char* none : {"densityLookups", "nullCollisions", "mediumScatterings", "boundViolations",
+                           "stuckPaths", "cappedEstimates", "mediumMismatches", "boundaryRepairs"}) {
+    EXPECT_EQ(counters.at(none), 0) << none;
+  }
+}
+
 TEST_F(Pbrt, ChecksTheFolderOfTheStatisticsBeforeRendering) {
   folder_.write("a.pbrt", kScene);
   const ProcessResult r = pbrt("--stats no/such/s.json a.pbrt");
@@ -400,6 +423,18 @@ TEST_F(Pbrt, KeepsLearnedBoundsForTheNextRender) {
   EXPECT_NE(other.output.find("warning: medium \"fog\" starts with unknown bounds: the cache has 1 x 1 x 1"),
             std::string::npos)
       << other.output;
+}
+
+TEST_F(Pbrt, KeepsLearnedBoundsOfEveryWorldApart) {
+  std::string other = learningScene();
+  const std::string cells = "\"integer supervoxels\" 1 ";
+  ASSERT_NE(other.find(cells), std::string::npos);
+  other.replace(other.find(cells), cells.size(), "\"integer supervoxels\" 2 ");
+  folder_.write("two.pbrt", learningScene() + other);
+  ASSERT_EQ(pbrt("--bounds-cache b.bounds two.pbrt").status, 0);
+  const ProcessResult again = pbrt("--bounds-cache b.bounds two.pbrt");
+  EXPECT_EQ(again.status, 0);
+  EXPECT_EQ(again.output.find("starts with unknown bounds"), std::string::npos) << again.output;
 }
 
 TEST_F(Pbrt, SaysWhetherLearnedBoundsHadSettled) {

@@ -14,6 +14,8 @@ TEST(FormatDuration, PicksTheUnitByLength) {
   EXPECT_EQ(formatDuration(59.94), "59.9s");
   EXPECT_EQ(formatDuration(59.97), "1m00s");
   EXPECT_EQ(formatDuration(245), "4m05s");
+  EXPECT_EQ(formatDuration(3599), "59m59s");
+  EXPECT_EQ(formatDuration(3600), "1h00m");
   EXPECT_EQ(formatDuration(3725), "1h02m");
 }
 

@@ -65,6 +65,15 @@ TEST(BumpMap, StepsHalfThePixelFootprint) {
   EXPECT_EQ(farthest, 0.0005f);
 }
 
+TEST(BumpMap, TakesEachSlopeOverItsOwnStep) {
+  const FunctionTexture slope([](const SurfaceInteraction& si) { return 0.5f * si.uv.x - 0.25f * si.uv.y; });
+  SurfaceInteraction si = flatSurface();
+  si.dudx = 0.5f;
+  si.dvdy = 0.125f;
+  applyBumpMap(&slope, si);
+  expectNear(si.shading.n, normalize(Vector3f{-0.5f, 0.25f, 1}));
+}
+
 TEST(BumpMap, ScalesTangentsOfACurvedSurfaceByTheDisplacementItself) {
   // A sphere of radius 2 at its pole: dn/du = dp/du / 2. Raised by 1 everywhere it is a sphere of radius 3.
   const FunctionTexture raised([](const SurfaceInteraction&) { return 1.0f; });

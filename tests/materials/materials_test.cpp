@@ -96,6 +96,9 @@ TEST(GlassMaterial, IsRoughWhenOneRoughnessIsNotZero) {
   params.remapRoughness = false;
   const Bsdf plain = evaluate(GlassMaterial(params));
   EXPECT_EQ(std::get<MicrofacetTransmission>(plain.lobe(1).model()).distribution.alphaY(), 0.001f);
+  const auto& transmission = std::get<MicrofacetTransmission>(remapped.lobe(1).model());
+  EXPECT_EQ(transmission.etaA, 1);
+  EXPECT_EQ(transmission.etaB, 1.5f);
 }
 
 TEST(GlassMaterial, LetsEverythingPassBetweenEqualIndices) {
@@ -194,6 +197,11 @@ TEST(UberMaterial, FallsBackFromVToUToRoughness) {
   const auto& d = std::get<MicrofacetReflection>(bsdf.lobe(1).model()).distribution;
   EXPECT_NEAR(d.alphaX(), 0.68384f, 1e-5f);
   EXPECT_NEAR(d.alphaY(), 0.68384f, 1e-5f);  // the u value, not roughness
+  params.vRoughness = &kTenth;
+  const Bsdf both = evaluate(UberMaterial(params));
+  const auto& anisotropic = std::get<MicrofacetReflection>(both.lobe(1).model()).distribution;
+  EXPECT_NEAR(anisotropic.alphaX(), 0.68384f, 1e-5f);
+  EXPECT_NEAR(anisotropic.alphaY(), 0.46176f, 1e-5f);
 }
 
 TEST(MixMaterial, ShowsTheFirstMaterialAtAmountOne) {

@@ -15,7 +15,8 @@
 namespace pbrtmedia {
 namespace {
 
-std::unique_ptr<Medium> medium(const std::string& name = "m", int cells = 2, float epsilon = .25f) {
+std::unique_ptr<Medium> medium(const std::string& name = "m", int cells = 2, float epsilon = .25f,
+                               float slack = 0) {
   GridMediumParams params;
   params.name = name;
   params.sigmaA = params.sigmaS = Rgb(1);
@@ -23,6 +24,7 @@ std::unique_ptr<Medium> medium(const std::string& name = "m", int cells = 2, flo
   params.bounds.source = BoundsParams::Source::Progressive;
   params.bounds.cells = {{cells, cells, cells}};
   params.bounds.epsilon = epsilon;
+  params.bounds.slack = slack;
   return makeGridMedium(params, Transform());
 }
 
@@ -101,7 +103,9 @@ TEST_F(BoundsCacheFile, SaysWhyAMediumStartsAfresh) {
        {std::pair(medium("n"), "does not know this medium of scene \"scene\""),
         std::pair(medium("m", 3),
                   "the cache has 2 x 2 x 2 super-voxels, epsilon 0.125 and slack 0; here there are 3"),
-        std::pair(medium("m", 2, .5f), "here there are 2 x 2 x 2 super-voxels, epsilon 0.25 and slack 0")}) {
+        std::pair(medium("m", 2, .5f), "here there are 2 x 2 x 2 super-voxels, epsilon 0.25 and slack 0"),
+        std::pair(medium("m", 2, .25f, .5f),
+                  "here there are 2 x 2 x 2 super-voxels, epsilon 0.125 and slack 0.5")}) {
     const std::vector<float> before = m->learnedBounds()->save();
     EXPECT_NE(cache.restore("scene", *m).find(reason), std::string::npos) << cache.restore("scene", *m);
     EXPECT_EQ(m->learnedBounds()->save(), before);

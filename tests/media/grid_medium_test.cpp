@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/hash.h"
 #include "media/homogeneous.h"
 #include "support/grids.h"
 #include "support/statistics.h"
@@ -80,6 +81,32 @@ TEST(GridMedium, OfConstantDensityIsTheHomogeneousMedium) {
       EXPECT_GT(ks.pValue(), test::kMinPValue) << medium->describe() << ", sigma_t " << sigmaT << ": " << ks;
     }
   }
+}
+
+TEST(GridMedium, TakesAnotherPatternForEachEstimateOfASample) {
+  // Of track-length, 0 or 1, the square is itself: two estimates from the same numbers would be one.
+  GridMediumParams params;
+  params.name = "smoke";
+  params.sigmaA = Rgb(1);
+  params.sigmaS = Rgb(0);
+  params.estimator = TrackLength{};
+  params.pattern = PatternKind::LatinHypercube;
+  params.grid = constantGrid(8, GridBorder::Clamp);
+  const auto medium = makeGridMedium(params, Transform());
+  RunningStats products;
+  for (std::uint64_t pixel = 0; pixel < 2000; ++pixel) {
+    double product = 0;  // the mean over the samples of a pixel
+    for (std::uint64_t sample = 0; sample < 16; ++sample) {
+      Rng rng(hashCombine(kSeed, pixel, sample));
+      RenderCounters counters;
+      rng.pixelSample() = {pixel, sample, 16, 0};
+      const float first = medium->transmittance(kAxis, rng, counters).r;
+      product += double{first * medium->transmittance(kAxis, rng, counters).r} / 16;
+    }
+    products.add(product);
+  }
+  const auto test = zTest(products, std::exp(-2.0), kSeed);
+  EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
 }
 
 TEST(GridMedium, FadesAtTheBorderByPbrtsRule) {

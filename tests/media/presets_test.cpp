@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -61,6 +63,24 @@ TEST(Presets, ReduceTheMeasuredScatteringByItsMeanCosine) {
       const float reduced = m.sigmaS[c] * (1 - m.meanCosine[c]);
       EXPECT_NEAR(preset->sigmaPrimeS[c], reduced, .01f * reduced) << m.name;
     }
+  }
+}
+
+TEST(Presets, AddUpToWhatTheTablesAddUpTo) {
+  // Logarithms, so that the smallest number counts as much as the largest: one that is mistyped by a per cent
+  // is seen.
+  std::array<double, 3> scattering{}, absorption{};
+  for (const MediumPreset& preset : mediumPresets()) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (preset.sigmaPrimeS[c] > 0) scattering[c] += std::log(double{preset.sigmaPrimeS[c]});
+      if (preset.sigmaA[c] > 0) absorption[c] += std::log(double{preset.sigmaA[c]});
+    }
+  }
+  constexpr std::array<double, 3> kScattering{-190.0255, -163.3856, -133.8468},
+      kAbsorption{-179.5756, -139.6077, -105.3022};
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_NEAR(scattering[c], kScattering[c], 1e-3) << c;
+    EXPECT_NEAR(absorption[c], kAbsorption[c], 1e-3) << c;
   }
 }
 

@@ -224,8 +224,8 @@ TEST(EmissionBeyondLightSamples, CountsFullyOutsideTheBoxOfTheLight) {
   const std::string text = "MediumInterface \"\" \"m\"\n" + pencil(1, 1, volpath(100000), kAlongZ) +
                            "WorldBegin\n" + medium("\"string type\" \"homogeneous\"", .5, 1, 1) +
                            "MediumInterface \"\" \"m\"\nMaterial \"none\"\n" +
-                           boxMesh({-1, -1, -1}, {1, 1, 1}) + "MediumInterface \"m\" \"\"\n" +
-                           boxMesh({.2, .2, -.5}, {.8, .8, .5}) +
+                           boxMesh({-1, -1, -1}, {2, 2, 1}) + "MediumInterface \"m\" \"\"\n" +
+                           boxMesh({-.8, -.8, -.5}, {1.8, 1.8, .8}) +
                            "Material \"matte\" \"rgb Kd\" [ 1 1 1 ] MediumInterface \"\" \"m\"\nTranslate .5 "
                            ".5 3 Shape \"sphere\" "
                            "\"float radius\" 1\nWorldEnd\n";

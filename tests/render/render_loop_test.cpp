@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
+#include <set>
 #include <thread>
 
 #include "base/parallel.h"
 #include "base/stop_signal.h"
+#include "filters/box.h"
 #include "filters/gaussian.h"
 #include "support/scene_kit.h"
 
@@ -95,6 +98,23 @@ TEST(RenderLoop, GivesTheSameBitsForAnyThreadsTilesAndGrouping) {
     }
   }
   EXPECT_FALSE(sameBits(reference.image, render(integrator, {.seed = 4}).image));  // negative control
+}
+
+TEST(RenderLoop, GivesEverySampleRandomNumbersOfItsOwn) {
+  const FakeIntegrator first(
+      [](const RayDifferential&, SampleContext& context) { return Rgb(context.rng.uniform()); });
+  RandomSampler sampler({.pixelSamples = 4, .seed = 3});
+  RenderCounters counters;
+  std::set<float> seen;
+  std::size_t asked = 0;
+  for (const std::uint64_t seed : {3u, 4u}) {
+    for (const Point2i pixel : {Point2i{2, 5}, Point2i{5, 2}, Point2i{3, 5}}) {
+      for (int sample = 0; sample < 4; ++sample) {
+        seen.insert(renderSample(FlatCamera(), sampler, first, pixel, sample, 4, seed, counters).r);
+        EXPECT_EQ(seen.size(), ++asked) << "seed " << seed << ", pixel " << pixel << ", sample " << sample;
+      }
+    }
+  }
 }
 
 TEST(RenderLoop, SplitBySampleIndexAddsUp) {
@@ -185,6 +205,8 @@ TEST(RenderLoop, RecordsDroppedSamplesSoThatTheyCanBeReplayed) {
   const Outcome a = render(broken, {.seed = 3, .maxRecords = 20});
   ASSERT_EQ(a.result.dropped.size(), 20u);
   EXPECT_GT(a.result.counters.droppedTotal(), 20u);
+  for (const float v : a.image.data())
+    ASSERT_TRUE(v >= 0 && v <= 1.0001f) << v << ": what is dropped is black";
   for (const auto& [threads, tile, group] : {std::tuple{2u, 5, 1}, std::tuple{5u, 16, 3}}) {
     const Outcome b =
         render(broken, {.seed = 3, .tileSize = tile, .samplesPerPass = group, .maxRecords = 20}, threads);
@@ -229,6 +251,21 @@ TEST(RenderLoop, RecordsMismatchesWithTheirPixel) {
     EXPECT_EQ(out.result.mismatches[static_cast<std::size_t>(i)].pixel, Point2i(10, 10));
     EXPECT_EQ(out.result.mismatches[static_cast<std::size_t>(i)].sample, i);
   }
+}
+
+TEST(RenderLoop, TellsTheFilmWhereInItsPixelASampleLies) {
+  // A filter that takes the middle quarter of a pixel sees nothing of what lies around it.
+  const auto isInside = [](float x) { return std::abs(x - std::floor(x) - 0.5f) < 0.25f; };
+  const FakeIntegrator middle([&](const RayDifferential& ray, SampleContext&) {
+    return Rgb(isInside(ray.o.x) && isInside(ray.o.y) ? 1.0f : 0.0f);
+  });
+  const RandomSampler sampler({.pixelSamples = 64, .seed = 3});
+  Film::Settings settings;
+  settings.resolution = {6, 5};
+  Film film(settings, std::make_unique<BoxFilter>(BoxFilter::Params{.radius = {0.25f, 0.25f}}));
+  renderFilm(FlatCamera(), sampler, middle, film, {.seed = 3});
+  const Image image = film.develop();
+  for (const float v : image.data()) EXPECT_EQ(v, 1);
 }
 
 TEST(RenderLoop, TakesSamplesWithinThePixelBoundsOnly) {

@@ -101,16 +101,17 @@ TEST(Description, CoordSysTransformIgnoresTheActiveTimes) {
 }
 
 TEST(Description, TransformBlocksSaveTransformAndSelectionOnly) {
-  Parsed p = parseWorld(
-      "TransformBegin ActiveTransform EndTime Translate 1 0 0 Material \"glass\" ReverseOrientation "
-      "TransformEnd\n"
-      "Translate 0 1 0 Shape \"sphere\"");
-  EXPECT_EQ(p.messages(), "");
-  const ShapeDescription& s = p.scene().shapes.at(0);
-  EXPECT_FALSE(s.ctm->isAnimated());
-  expectPoint(s.ctm->start.point(Vec3d{}), {0, 1, 0});
-  EXPECT_EQ(s.material, 0);
-  EXPECT_TRUE(s.reverseOrientation);
+  for (const std::string time : {"StartTime", "EndTime"}) {
+    Parsed p = parseWorld("TransformBegin ActiveTransform " + time +
+                          " Translate 1 0 0 Material \"glass\" ReverseOrientation TransformEnd\n"
+                          "Translate 0 1 0 Shape \"sphere\"");
+    EXPECT_EQ(p.messages(), "");
+    const ShapeDescription& s = p.scene().shapes.at(0);
+    EXPECT_FALSE(s.ctm->isAnimated()) << time;
+    expectPoint(s.ctm->start.point(Vec3d{}), {0, 1, 0});
+    EXPECT_EQ(s.material, 0);
+    EXPECT_TRUE(s.reverseOrientation);
+  }
 }
 
 TEST(Description, AttributeBlocksSaveEverything) {

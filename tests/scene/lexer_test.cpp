@@ -60,6 +60,16 @@ TEST(Lexer, StringsMustCloseOnTheirLine) {
   EXPECT_EQ(tokens("\"\"").at(0).kind, Kind::String);
 }
 
+TEST(Lexer, AnEscapedQuoteEndsNoString) {
+  const auto t = tokens(R"("a \" b" c "\\" d)");
+  ASSERT_EQ(t.size(), 4u);
+  EXPECT_EQ(t[0].kind, Kind::String);
+  EXPECT_EQ(t[0].raw, R"("a \" b")");
+  EXPECT_EQ(t[1].raw, "c");
+  EXPECT_EQ(t[2].raw, R"("\\")");
+  EXPECT_EQ(t[3].raw, "d");
+}
+
 TEST(Lexer, EscapesAreThoseOfTheLanguage) {
   EXPECT_EQ(unescaped(R"("\b\f\n\r\t\\\'\"")", {}), "\b\f\n\r\t\\'\"");
   const SourceLocation at{nullptr, 3, 10, 5};

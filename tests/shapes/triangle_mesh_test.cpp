@@ -202,6 +202,14 @@ TEST(TriangleMesh, KnowsWhetherItIsClosed) {
   auto wall = params;
   wall.indices.insert(wall.indices.end(), {0, 3, 7, 0, 7, 4});
   EXPECT_FALSE(TriangleMesh(wall, {}).isClosed());
+  // Two boxes that meet in an edge: four triangles there, two of each.
+  auto pair = params;
+  const auto count = static_cast<int>(params.P.size());
+  const Bounds3f bounds = TriangleMesh(params, {}).bounds();
+  for (const Point3f& p : params.P)
+    pair.P.push_back(p + Vector3f{bounds.diagonal().x, bounds.diagonal().y, 0});
+  for (const int i : params.indices) pair.indices.push_back(i + count);
+  EXPECT_FALSE(TriangleMesh(pair, {}).isClosed());
 }
 
 std::string firstError(TriangleMesh::Params params) {

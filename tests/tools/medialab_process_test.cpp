@@ -431,6 +431,19 @@ TEST(Medialab, IndependentEstimatesConvergeLikeTheRootOfTheirNumber) {
   EXPECT_LT(std::abs(last["bias"].get<double>()), test::kMaxAbsZ * last["bias_stderr"].get<double>());
 }
 
+TEST(Medialab, TheErrorThatConvergesHoldsTheBias) {
+  // The midpoint rule has no noise, so its error is its bias however many estimates are averaged.
+  const json rows = labJson(
+      "converge --estimator ray-marching:steps=2:offset=midpoint --extinction cosine --depth 2 --doublings 2 "
+      "--trials 10")["rows"];
+  ASSERT_EQ(rows.size(), 3u);
+  for (const json& row : rows) {
+    const double bias = std::abs(row["bias"].get<double>());
+    EXPECT_GT(bias, 1e-4);
+    EXPECT_NEAR(row["rmse"].get<double>(), bias, 1e-9 * bias);
+  }
+}
+
 TEST(Medialab, ProfileShowsTheFieldAndTheLookUpsOfOneEstimate) {
   const TemporaryFolder folder;
   const ProcessResult result =

@@ -91,7 +91,7 @@ TEST(ResidualRatioTracking, CombinesExponentsOfAnOpaqueMediumFirst) {
 }
 
 TEST(ResidualRatioTracking, IntegratesMinorantsBehindItsLimit) {
-  const ProvenLine line{{[](double) { return 1.5; }, {{.1, {900, 1}}, {1, {2, 1}}}}};
+  const ProvenLine line{{[](double) { return 1.5; }, {{.1, {900, 1}}, {.5, {2, 1}}, {1, {2, 1}}}}};
   Rng rng(kSeed);
   const auto estimate = runEstimator(ResidualRatioTracking{.maxLookups = 2}, line, Channels<1>{1}, rng);
   EXPECT_EQ(estimate.tally.capped, 1u);

@@ -41,6 +41,24 @@ TEST(BoundaryVicinity, HoldsEveryPointOfABoundary) {
   }
 }
 
+TEST(BoundaryVicinity, KnowsHowCoarsePointsAreThatComeFromFarAway) {
+  // The object is tiny and so is its place in the world, but between them its points are a thousand units
+  // away.
+  const Transform place = Transform::translate({-1000, -1000, -1000}) * Transform::scale(1e6, 1e6, 1e6);
+  SceneKit kit;
+  const Shape* const shape = kit.quad({1e-3f, 1e-3f, 1e-3f}, {1.001e-3f, 1e-3f, 1.0003e-3f},
+                                      {1.001e-3f, 1.001e-3f, 1.0008e-3f}, {1e-3f, 1.001e-3f, 1.0004e-3f});
+  const Primitive boundary{.shape = shape, .media = {kit.fog("m", Rgb(1), Rgb(0)), nullptr}};
+  kit.builder.addInstance(kit.builder.addObject({boundary}), AnimatedTransform(place));
+  const auto scene = kit.finish();
+  Rng rng(5);
+  for (int i = 0; i < 2000; ++i) {
+    const std::uint32_t primitive = static_cast<std::uint32_t>(i) % shape->primitiveCount();
+    const Point3f p = place.point(shape->sample(primitive, Point2f(rng.uniform(), rng.uniform())).p);
+    EXPECT_TRUE(scene->mayTouchBoundary(p)) << p;
+  }
+}
+
 TEST(BoundaryVicinity, SparesTheQueryForMostOtherPoints) {
   Rng rng(4);
   for (const bool isInstance : {false, true}) {
