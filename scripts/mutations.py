@@ -75,16 +75,18 @@ def parse(text: str) -> list[Mutation]:
         by = fields["by"][0].split() if len(fields["by"]) == 1 else []
         if not head or len(fields["in"]) != 1 or not fields["-"] or len(by) != 2:
             raise ListError(f"{lines[0]}: expected \"name: words\" and then in, -, + and by with a test and a filter")
-        mutations.append(Mutation(head[1], head[2], fields["in"][0], "\n".join(fields["-"]), "\n".join(fields["+"]), *by))
+        before, after = "\n".join(fields["-"]), "\n".join(fields["+"])
+        mutations.append(Mutation(head[1], head[2], fields["in"][0], before, after, *by))
     return mutations
 
 
 def programs(root: pathlib.Path) -> dict[str, str]:
     """Test program of each test file below tests/, from the lists of the rooms."""
     found = {}
+    listed = re.compile(r"room_test\(\s*(\w+)\s+SOURCES\s+([\w\s./]+?)\s+(?:DEPENDS|LIBRARIES|LABEL)")
     for listing in sorted((root / "tests").glob("*/CMakeLists.txt")):
         text = re.sub(r"#.*", "", listing.read_text())
-        for name, sources in re.findall(r"room_test\(\s*(\w+)\s+SOURCES\s+([\w\s./]+?)\s+(?:DEPENDS|LIBRARIES|LABEL)", text):
+        for name, sources in listed.findall(text):
             for source in sources.split():
                 found[f"{listing.parent.name}/{source}"] = name
     return found
@@ -144,9 +146,9 @@ def page(mutations: list[Mutation], results: dict[str, list[str]]) -> str:
     said = ", ".join(f"{n} {result}" for result, n in counts.items() if n > 0)
     return "\n".join([
         "# Planted faults", "",
-        "Faults that `scripts/mutations.py` plants, one at a time, to see whether a test notices. `./check` draws five of them",
-        "anew each time. The list is `scripts/mutations.txt`; this page is written by `scripts/mutations.py docs`, its results",
-        "by `scripts/mutations.py run --record`.", "",
+        "Faults that `scripts/mutations.py` plants, one at a time, to see whether a test notices. `./check` draws five of",
+        "them anew each time. The list is `scripts/mutations.txt`; this page is written by `scripts/mutations.py docs`, its",
+        "results by `scripts/mutations.py run --record`.", "",
         f"{len(mutations)} faults: {said}.", "",
         "| fault | file | change | result | noticed by |", "| --- | --- | --- | --- | --- |", *rows, ""])
 
@@ -316,7 +318,8 @@ def run(root: pathlib.Path, mutations: list[Mutation], chosen: list[Mutation], r
             broken.append(m.name)
             continue
         result = "red" if failures else "green"
-        print(f"{result:5} {m.name} ({time.monotonic() - start:.0f} s): {shown(failures) or 'nobody noticed'}", flush=True)
+        seconds = time.monotonic() - start
+        print(f"{result:5} {m.name} ({seconds:.0f} s): {shown(failures) or 'nobody noticed'}", flush=True)
         if not failures:
             green.append(m.name)
         if record:
