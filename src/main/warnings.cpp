@@ -72,8 +72,8 @@ std::string describeFaults(const RenderResult& result, const Options& options, c
   if (c.stuckPaths > 0 && !options.quiet) {
     os << "pbrt: warning: " << c.stuckPaths
        << " paths were ended in media so dense that coordinates cannot tell one scattering from the next, "
-          "after "
-          "1024 in one place: what they would still have found is missing, so the image is too dark there.\n";
+          "after many in one place: what they would still have found is missing, so the image is too dark "
+          "there.\n";
   }
   if (c.mediumMismatches > 0 && !options.quiet) {
     os << "pbrt: warning: " << c.mediumMismatches
@@ -135,9 +135,9 @@ namespace {
 /// What is wrong with a homogeneous medium that scatters on a smaller scale than coordinates can tell; empty:
 /// nothing.
 std::string describeUntold(const Medium& medium, const Scene& scene) {
-  // Scatterings stay this share of the coordinates away from boundaries (MediaTracker::scatterPoint): of a
-  // mean free path it may be a hundredth, which is what then is missing of the light that comes back.
-  constexpr double kTold = 0x1p-20, kMostOfPath = 0.01;
+  // Distances along a ray are told to this share of the coordinates: of a mean free path it may be a
+  // hundredth.
+  constexpr double kTold = 0x1p-50, kMostOfPath = 0.01;
   if (medium.typeName() != "homogeneous") return "";
   const double told = kTold * double{scene.largestCoordinate()}, sigma = medium.sigmaT().max();
   RenderCounters uncounted;
@@ -146,8 +146,7 @@ std::string describeUntold(const Medium& medium, const Scene& scene) {
   std::ostringstream text;
   text << "its mean free path, " << static_cast<float>(1 / sigma)
        << ", is less than a hundred times what coordinates can tell in a scene of this size, "
-       << static_cast<float>(told)
-       << ": less light comes back out of it than should, down to none; an extinction of at most "
+       << static_cast<float>(told) << ": what comes back out of it is not right; an extinction of at most "
        << static_cast<float>(kMostOfPath / told) << " looks the same and comes out right";
   return text.str();
 }

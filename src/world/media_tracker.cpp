@@ -15,12 +15,6 @@
 namespace pbrtmedia {
 namespace {
 
-/// Rounding of a point's coordinates and of a hit's distance to its plane, in float spacings of the largest
-/// coordinate involved: half a spacing per coordinate each, with room for the few operations of a triangle
-/// test.
-constexpr float kRoundingSpacings = 8;
-constexpr float kSpacing = 0x1p-23f;
-
 std::string nameOf(const Medium* m) { return m ? '"' + m->name() + '"' : "vacuum"; }
 
 bool contradicts(const MediumState& state, const BoundarySides& s) {
@@ -291,25 +285,6 @@ EmissionSamples MediaTracker::sampleEmission(const MediumState& state, std::size
     }
   }
   return found;
-}
-
-Point3f MediaTracker::scatterPoint(const Ray& ray, double t, const BoundaryPlane& start,
-                                   const BoundaryPlane& end, RenderCounters& counters) {
-  const Segment line{ray.o, ray.d, 0, t};
-  Point3f p = line.at(t);
-  const float scale = std::max(maxComponent(abs(p)), maxComponent(abs(ray.o)));
-  const float margin = kRoundingSpacings * kSpacing * scale;
-  for (const BoundaryPlane* plane : {&start, &end}) {
-    if (!plane->isValid) continue;
-    const Vec3d offset = Vec3d(p) - Vec3d(plane->p);
-    // Far along a grazing segment the plane says nothing about the surface.
-    if (!(lengthSquared(offset) < sqr(kNearBoundary * static_cast<double>(scale)))) continue;
-    const double height = dot(offset, Vec3d(plane->n));
-    if (height >= margin) continue;
-    if (height <= 0) ++counters.boundaryRepairs;
-    p = Point3f(Vec3d(p) + (margin - height) * Vec3d(plane->n));
-  }
-  return p;
 }
 
 }  // namespace pbrtmedia

@@ -40,14 +40,6 @@ struct MediumFlight {
   const PhaseFunction* phase = nullptr;  ///< of the medium that collided
 };
 
-/// A plane that a path vertex in a medium must stay on one side of: the boundary at either end of its
-/// segment.
-struct BoundaryPlane {
-  bool isValid = false;
-  Point3f p;
-  Normal3f n;  ///< unit, toward the side of the segment
-};
-
 /// Media topology of one scene: how crossing boundaries changes the media a path is in. Immutable,
 /// thread-safe.
 class MediaTracker {
@@ -98,19 +90,10 @@ class MediaTracker {
   /// it.
   static EmissionSamples sampleEmission(const MediumState& state, std::size_t i, const Ray& ray, double tMin,
                                         double tMax, Rng& rng, RenderCounters& counters);
-  /// The point at `t`, in single precision. When rounding may have put it beyond the boundary at an end of
-  /// its segment it is moved back to the right side, by some float spacings; being beyond counts as a repair.
-  static Point3f scatterPoint(const Ray& ray, double t, const BoundaryPlane& start, const BoundaryPlane& end,
-                              RenderCounters& counters);
-
   /// Whether the medium can be only within closed boundaries.
   bool isConfined(const Medium* medium) const {
     return medium != cameraMedium_ && boundaries_.isConfined(medium);
   }
-  /// A collision closer to the end of its segment than this share of the largest coordinate is looked at by
-  /// `scatterPoint`; farther away only a boundary met at less than about 1e-3 radians could be within
-  /// rounding.
-  static constexpr double kNearBoundary = 1e-3;
 
  private:
   /// A surface and the side that it is met from.

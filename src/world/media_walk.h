@@ -6,6 +6,7 @@
 
 #include "world/line_walk.h"
 #include "world/media_tracker.h"
+#include "world/scatter_point.h"
 
 namespace pbrtmedia {
 
@@ -29,14 +30,18 @@ class MediaWalk {
     std::uint64_t& queries;             ///< of rays, counted here
     MismatchLog* mismatches = nullptr;  ///< of boundaries; null: not noted
   };
-  /// `state`: of the media at the line's start, kept up to date.
-  MediaWalk(const Context& context, MediumState& state, LineWalk line)
-      : context_(context), state_(&state), line_(std::move(line)) {}
+  /// `state`: of the media at the line's start, kept up to date. `from`: where the line starts, if that is a
+  /// scattering in a medium.
+  MediaWalk(const Context& context, MediumState& state, LineWalk line, const ScatterPoint* from = nullptr)
+      : context_(context), state_(&state), line_(std::move(line)) {
+    if (from && from->near.isValid) from_ = *from;
+  }
   /// The rest of another walk for somebody with a state of his own.
   MediaWalk(const MediaWalk& walk, const Context& context, MediumState& state)
       : context_(context),
         state_(&state),
         line_(walk.line_),
+        from_(walk.from_),
         nearest_(walk.nearest_),
         t_(walk.t_),
         tEnd_(walk.tEnd_) {}
@@ -52,7 +57,9 @@ class MediaWalk {
   /// ray. Behind the last surface of an endless ray confined media cannot be.
   const SceneHit* ahead() {
     nearest_ = line_.peek(context_.queries);
-    tEnd_ = std::max<double>(t_, nearest_ ? nearest_->t() : ray().tMax);
+    tEnd_ = nearest_ ? nearest_->t() : ray().tMax;
+    if (nearest_ && from_) tEnd_ = from_->endAlong(ray().d, tEnd_);
+    tEnd_ = std::max(t_, tEnd_);
     if (!nearest_ && context_.media && ray().tMax == kInfinity)
       context_.media->escape(*state_, context_.counters);
     return nearest_ ? &*nearest_ : nullptr;
@@ -67,13 +74,13 @@ class MediaWalk {
   void cross(const SceneHit& hit, const SurfaceInteraction& si) {
     if (context_.media)
       context_.media->cross(*state_, hit, si, ray().d, context_.counters, context_.mismatches);
-    t_ = tEnd_;
+    goOn();
   }
   void cross(const SceneHit& hit) {
     if (context_.media && !hit.primitive->media.same()) {
       cross(hit, context_.scene.surface(hit, ray()));
     } else {
-      t_ = tEnd_;
+      goOn();
     }
   }
   /// Through all surfaces to the end of the ray, whatever material they have.
@@ -87,9 +94,15 @@ class MediaWalk {
   }
 
  private:
+  void goOn() {
+    t_ = tEnd_;
+    from_.reset();
+  }
+
   Context context_;
   MediumState* state_;
   LineWalk line_;
+  std::optional<ScatterPoint> from_;  ///< on the first stretch
   std::optional<SceneHit> nearest_;
   double t_ = 0, tEnd_ = 0;
 };

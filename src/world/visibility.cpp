@@ -81,7 +81,7 @@ Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const Shadow
                    const PlacedMedium& medium, Span<double> span, MediumState state, Rng& rng,
                    RenderCounters& counters, MismatchLog* log) {
   MediaWalk walk({scene, &tracker, counters, counters.shadowRays, log}, state,
-                 LineWalk(scene, shadow.ray, shadow.exclusions));
+                 LineWalk(scene, shadow.ray, shadow.exclusions), shadow.from);
   const Ray& ray = walk.ray();
   PassedStretches passed(ray);
   Rgb sum;
@@ -107,7 +107,7 @@ Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const Shadow
 Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
                         MediumState& state, Rng& rng, RenderCounters& counters, MismatchLog* log) {
   MediaWalk walk({scene, &tracker, counters, counters.shadowRays, log}, state,
-                 LineWalk(scene, shadow.ray, shadow.exclusions));
+                 LineWalk(scene, shadow.ray, shadow.exclusions), shadow.from);
   const auto blocks = [&](const SceneHit& h) { return h.primitive->material || h.isHider(shadow.hider); };
   Rgb product(1.0f);
   for (;;) {

@@ -4,6 +4,7 @@
 #include "lights/light.h"
 #include "spectrum/rgb.h"
 #include "world/media_tracker.h"
+#include "world/scatter_point.h"
 
 namespace pbrtmedia {
 
@@ -12,6 +13,7 @@ struct ShadowRay {
   Ray ray;
   Exclusions exclusions;
   std::uint32_t hider = PrimitiveId::kNone;  ///< Scene::hiderOf the light
+  const ScatterPoint* from = nullptr;        ///< its start, if that is a scattering in a medium
 };
 
 /// A ray from `p` along `sample.wi` that ends on the light. `start`: the primitives that hold p (t = 0).

@@ -4,6 +4,8 @@
 
 #include "construct/attempt.h"
 #include "fields/nano_vdb_samples.h"
+#include "media/emission/emission_volume.h"
+#include "media/medium.h"
 #include "spectrum/spectrum.h"
 #include "support/temporary_folder.h"
 

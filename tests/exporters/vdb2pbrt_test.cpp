@@ -11,6 +11,7 @@
 #include "exporters/vdb_samples.h"
 #include "fields/grid_field.h"
 #include "fields/nano_vdb_field.h"
+#include "media/medium.h"
 #include "scene/param_reader.h"
 #include "scene/parser.h"
 #include "support/temporary_folder.h"

@@ -193,11 +193,11 @@ TEST(MediaTracker, MovesScatterPointsBackToTheirSideOfTheBoundary) {
   for (const float z : {0.7f, 1.0f, 3.14159f, 100.0f}) {
     const double t = static_cast<double>(z) / ray.d.z;
     const Point3f hit = ray.at(static_cast<float>(t));
-    const BoundaryPlane end{true, {hit.x, hit.y, z}, {0, 0, -1}};
-    const Point3f p = MediaTracker::scatterPoint(ray, t, {}, end, counters);
+    const BoundaryPlane end{true, Vec3d(hit.x, hit.y, z), {0, 0, -1}};
+    const Point3f p = scatterPoint(ray, t, {}, end, counters).p;
     EXPECT_LT(p.z, z);
     EXPECT_GT(p.z, z * (1 - 1e-5f));
-    const Point3f inner = MediaTracker::scatterPoint(ray, t / 2, {}, end, counters);
+    const Point3f inner = scatterPoint(ray, t / 2, {}, end, counters).p;
     EXPECT_EQ(inner, (Segment{ray.o, ray.d, 0, t}.at(t / 2)));  // nothing to repair there
   }
   EXPECT_GT(counters.boundaryRepairs, 0u);

@@ -6,6 +6,7 @@
 #include "materials/material.h"
 #include "media/medium.h"
 #include "media/phase/phase_function.h"
+#include "world/hit_coordinates.h"
 
 namespace pbrtmedia {
 namespace {
@@ -23,11 +24,14 @@ constexpr float kMediumRouletteWeight = 0.03f;
 constexpr float kSplitFactor = 3;
 
 /// After so many scatterings in one place free flights are far shorter than coordinates can tell (were they
-/// as long as a hundredth of that, one in 1e50 would stay): the path would scatter there for ever.
-constexpr int kMostBouncesInPlace = 1024;
+/// as long as a hundredth of that, one in 1e50 would stay): the path would scatter there for ever. Close to a
+/// boundary, heights above it are told far better (ScatterPoint), and paths come out sooner or later.
+constexpr int kMostBouncesInPlace = 1024, kMostBouncesAtBoundary = 1 << 20;
 
-BoundaryPlane planeAt(const SurfaceInteraction& si, Vector3f toward) {
-  return {true, si.p, faceForward(si.n, toward)};
+/// The plane of a hit through `p`, its side that `toward` points to.
+BoundaryPlane planeAt(const SceneHit& hit, const SurfaceInteraction& si, Vec3d p, Vector3f toward,
+                      float time) {
+  return {true, p, Vec3d(faceForward(si.n, toward)), coordinatesOf(hit, time)};
 }
 
 /// Whether sampling the BSDF reaches every direction in which it scatters. With a shading normal, or glossy
@@ -71,7 +75,8 @@ PathTracer::Event PathTracer::flyToEvent() {
   if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters() && !setup_.mediaEmit) return Event::End;
   const bool isFromCamera = bounces_ == 0;
   Way way{{walkContext(), state_,
-           isFromCamera ? LineWalk::fromCamera(setup_.scene, ray_) : LineWalk(setup_.scene, ray_, rayStart_)},
+           isFromCamera ? LineWalk::fromCamera(setup_.scene, ray_) : LineWalk(setup_.scene, ray_, rayStart_),
+           &from_},
           startPlane_};
   return followWay(way);
 }
@@ -115,8 +120,11 @@ PathTracer::Event PathTracer::followWay(Way& way) {
         surface_.coincident = walk.coincidentWith(*hit, si);
       return Event::Surface;
     }
+    if (setup_.media) {
+      const Vec3d p = Vec3d(ray_.o) + walk.tEnd() * Vec3d(ray_.d);
+      way.start = planeAt(*hit, si, p, ray_.d, ray_.time);
+    }
     walk.cross(*hit, si);
-    way.start = planeAt(si, ray_.d);
   }
 }
 
@@ -153,7 +161,7 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, Event& event) {
   if (!flight.collided) return !(flight.weight.max() < 1) || bounces_ == 0 || playRoulette(/*inMedium=*/true);
   medium_ = {
       mediumPoint(flight.t, tMax, hit, start), flight.phase, flight.t, tMin, tMax, extinction, lightsStretch};
-  if (!isFinite(medium_.p)) return false;  // beyond what coordinates can tell: nothing is out there
+  if (!isFinite(medium_.at.p)) return false;  // beyond what coordinates can tell: nothing is out there
   event = Event::Medium;
   return false;
 }
@@ -192,12 +200,13 @@ void PathTracer::followChannels(const Way& way) {
 }
 
 /// The point at `t` of a stretch that ends at tMax with `hit`, on the right side of the boundaries.
-Point3f PathTracer::mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start) {
+ScatterPoint PathTracer::mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start) {
   BoundaryPlane end;
-  if (hit && tMax - t < MediaTracker::kNearBoundary * (tMax + maxComponent(abs(ray_.o)))) {
-    end = planeAt(setup_.scene.surface(*hit, ray_), -ray_.d);
+  if (hit && tMax - t < kNearBoundary * (tMax + maxComponent(abs(ray_.o)))) {
+    end = planeAt(*hit, setup_.scene.surface(*hit, ray_), Vec3d(ray_.o) + tMax * Vec3d(ray_.d), -ray_.d,
+                  ray_.time);
   }
-  return MediaTracker::scatterPoint(ray_, t, start, end, counters_);
+  return scatterPoint(ray_, t, start, end, counters_);
 }
 
 SurfaceInteraction PathTracer::surfaceAt(const SceneHit& hit) const {
@@ -230,15 +239,16 @@ bool PathTracer::scatterOnSurface() {
     setup_.media->leaveSurface(state_, surface_.hit, si, surface_.coincident, sample.wi, counters_,
                                context_.mismatches);
   }
-  startSegment(si.p, sample.wi, planeAt(si, sample.wi),
-               surface_.coincident.startingWith(surface_.hit.hit.id));
+  BoundaryPlane plane;
+  if (!state_.isVacuum()) plane = planeAt(surface_.hit, si, Vec3d(si.p), sample.wi, ray_.time);
+  startSegment(si.p, sample.wi, plane, surface_.coincident.startingWith(surface_.hit.hit.id));
   return playRoulette(/*inMedium=*/false);
 }
 
 bool PathTracer::scatterInMedium() {
   ++counters_.mediumScatterings;
-  bouncesInPlace_ = medium_.p == ray_.o ? bouncesInPlace_ + 1 : 0;
-  if (bouncesInPlace_ > kMostBouncesInPlace) {
+  bouncesInPlace_ = medium_.at.p == ray_.o ? bouncesInPlace_ + 1 : 0;
+  if (bouncesInPlace_ > (medium_.at.near.isValid ? kMostBouncesAtBoundary : kMostBouncesInPlace)) {
     ++counters_.stuckPaths;
     return false;
   }
@@ -252,7 +262,8 @@ bool PathTracer::scatterInMedium() {
   isDirect_ = false;
   directionPdf_ = sample.value;
   ++bounces_;
-  startSegment(medium_.p, sample.wi, {}, {});
+  startSegment(medium_.at.p, sample.wi, medium_.at.near, {});
+  from_ = medium_.at;
   return playRoulette(/*inMedium=*/true);
 }
 
@@ -264,6 +275,7 @@ void PathTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane,
   ray_.time = time;
   startPlane_ = plane;
   rayStart_ = start;
+  from_ = {};
 }
 
 bool PathTracer::playRoulette(bool inMedium) {

@@ -43,7 +43,7 @@ class PathTracer {
     CoincidentSurfaces coincident;
   };
   struct MediumVertex {
-    Point3f p;
+    ScatterPoint at;
     const PhaseFunction* phase;
     double t, tMin, tMax;              ///< on the ray, and the stretch in media that it was sampled on
     std::optional<double> extinction;  ///< PositionLights::Stretch
@@ -68,7 +68,7 @@ class PathTracer {
   bool passMedium(const Way& way, const SceneHit* hit, Event& event);
   bool splitsChannels() const;
   void followChannels(const Way& way);
-  Point3f mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
+  ScatterPoint mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
   void lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
   void collectMediumEmission(double tMin, double tMax);
   void collectEmission(Way& way, const SceneHit& hit, const SurfaceInteraction& si);
@@ -85,7 +85,8 @@ class PathTracer {
     LightSample sample;  ///< pdf includes `probability`
   };
   std::optional<PickedLight> pickLight(Point3f p, bool scatteringFindsUniformLights);
-  Rgb arriving(const PickedLight& light, Point3f p, const Exclusions& start, const MediumState& state);
+  Rgb arriving(const PickedLight& light, Point3f p, const Exclusions& start, const MediumState& state,
+               const ScatterPoint* from = nullptr);
   float lightWeight(const PickedLight& light, float directionPdf) const;
   float collisionShare(std::size_t light, Point3f p) const;
   float emissionWeight(std::size_t light, const SurfaceInteraction* si) const;
@@ -102,6 +103,7 @@ class PathTracer {
   RayDifferential ray_;
   Exclusions rayStart_;
   BoundaryPlane startPlane_;
+  ScatterPoint from_;  ///< where the ray starts, if in a medium
   MediumState state_;
   SurfaceVertex surface_;
   MediumVertex medium_{};

@@ -31,10 +31,11 @@ std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool sca
 
 /// What of a light sample's radiance arrives at `p`; of a medium, what it sends there from that direction.
 Rgb PathTracer::arriving(const PickedLight& light, Point3f p, const Exclusions& start,
-                         const MediumState& state) {
+                         const MediumState& state, const ScatterPoint* from) {
   const Scene& scene = setup_.scene;
   const LightSample& s = light.sample;
   ShadowRay shadow = shadowRayTo(scene, light.index, s, p, ray_.time, start);
+  shadow.from = from;
   if (!setup_.media) {
     const bool occluded =
         scene.occluded(shadow.ray, 0, shadow.exclusions, counters_.shadowRays, shadow.hider);
@@ -93,14 +94,14 @@ void PathTracer::lightSurface(const Bsdf& bsdf) {
 }
 
 void PathTracer::lightMedium() {
-  const std::optional<PickedLight> light = pickLight(medium_.p, ownsUniformLights_);
+  const std::optional<PickedLight> light = pickLight(medium_.at.p, ownsUniformLights_);
   if (!light) return;
   const LightSample& s = light->sample;
   const float phase = medium_.phase->evaluate(-ray_.d, s.wi);
   if (!(phase > 0)) return;
-  const float weight = lightWeight(*light, phase) * collisionShare(light->index, medium_.p);
+  const float weight = lightWeight(*light, phase) * collisionShare(light->index, medium_.at.p);
   if (!(weight > 0)) return;
-  radiance_ += beta_ * (phase * weight / s.pdf) * arriving(*light, medium_.p, {}, state_);
+  radiance_ += beta_ * (phase * weight / s.pdf) * arriving(*light, medium_.at.p, {}, state_, &medium_.at);
 }
 
 /// Single scattering of a light at one point, at a distance chosen for that light. The flight that follows
@@ -110,7 +111,8 @@ void PathTracer::lightStretch(const PositionLights::Stretch& stretch, const Scen
   const float u = samples_.get1D(), v = samples_.get1D();
   const auto choice = setup_.positionLights->sample(stretch, u, v);
   if (!choice) return;
-  const Point3f p = mediumPoint(choice->t, stretch.tMax, hit, start);
+  const ScatterPoint at = mediumPoint(choice->t, stretch.tMax, hit, start);
+  const Point3f p = at.p;
   if (!isFinite(p)) return;
   const PickedLight light{choice->light, 1, setup_.lights[choice->light]->sample(p, {})};
   const LightSample& s = light.sample;
@@ -125,7 +127,8 @@ void PathTracer::lightStretch(const PositionLights::Stretch& stretch, const Scen
   const Rgb through =
       MediaTracker::transmittance(state_, ray_, stretch.tMin, choice->t, context_.rng, counters_);
   if (through.isBlack()) return;
-  radiance_ += beta_ * through * scattered * static_cast<float>(1 / density) * arriving(light, p, {}, state_);
+  radiance_ +=
+      beta_ * through * scattered * static_cast<float>(1 / density) * arriving(light, p, {}, state_, &at);
 }
 
 /// What the media emit between two surfaces.
