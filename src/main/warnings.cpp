@@ -7,9 +7,10 @@
 #include <sstream>
 #include <vector>
 
-#include "world/media_faults.h"
-
 #include "base/stop_signal.h"
+#include "media/homogeneous.h"
+#include "media/medium.h"
+#include "world/media_faults.h"
 
 namespace pbrtmedia {
 namespace {
@@ -132,20 +133,18 @@ std::string describeStop(const RenderResult& result) {
 
 namespace {
 
-/// What is wrong with a homogeneous medium that scatters on a smaller scale than coordinates can tell; empty:
-/// nothing.
+/// What is wrong with a medium that scatters on a smaller scale than coordinates can tell; empty: nothing.
 std::string describeUntold(const Medium& medium, const Scene& scene) {
-  // Distances along a ray are told to this share of the coordinates: of a mean free path it may be a
-  // hundredth.
-  constexpr double kTold = 0x1p-50, kMostOfPath = 0.01;
-  if (medium.typeName() != "homogeneous") return "";
-  const double told = kTold * double{scene.largestCoordinate()}, sigma = medium.sigmaT().max();
-  RenderCounters uncounted;
-  if (!(sigma * told > kMostOfPath) || !std::isfinite(told) || medium.at({}, uncounted).sigmaS.isBlack())
-    return "";
+  // Distances along a ray are told to these shares of the coordinates. A medium with a density has a box of
+  // its own, which differs from its boundary by the rounding of hits (ScatterPoint knows the boundary).
+  constexpr double kTold = 0x1p-47, kToldInBox = 0x1p-23, kMostOfPath = 0.1;
+  const double share = medium.typeName() == HomogeneousMedium::kTypeName ? kTold : kToldInBox;
+  const double told = share * double{scene.largestCoordinate()}, sigma = medium.densestScattering();
+  if (!(sigma * told > kMostOfPath) || !std::isfinite(told)) return "";
   std::ostringstream text;
+  text.precision(3);
   text << "its mean free path, " << static_cast<float>(1 / sigma)
-       << ", is less than a hundred times what coordinates can tell in a scene of this size, "
+       << ", is less than ten times what coordinates can tell in a scene of this size, "
        << static_cast<float>(told) << ": what comes back out of it is not right; an extinction of at most "
        << static_cast<float>(kMostOfPath / told) << " looks the same and comes out right";
   return text.str();

@@ -85,6 +85,11 @@ bool FieldMedium::mayBeNegative() const {
   return !kernel_->bounds().areProven() || traitsOf(estimator_).mayLeaveUnitInterval;
 }
 
+double FieldMedium::densestScattering() const {
+  if (sigmaS_.isBlack()) return 0;
+  return double{trackedSigmaT().max()} * double{kernel_->superVoxels().maximum()};
+}
+
 Rgb FieldMedium::transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const {
   if (hasNaN(segment)) return kNaN;
   const auto line = lineOf(segment);

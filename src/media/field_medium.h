@@ -41,6 +41,7 @@ class FieldMedium final : public Medium {
   const PhaseFunction& phase() const override { return *phase_; }
   bool isExponential() const override { return isExponential_; }
   Rgb sigmaT() const override { return sigmaT_; }
+  double densestScattering() const override;
   bool isEmissive() const override { return emission_.isEmissive(); }
   /// Under proven bounds every sampler's weights are positive.
   bool mayBeNegative() const override;

@@ -11,10 +11,7 @@ namespace pbrtmedia {
 
 std::unique_ptr<Medium> makeGridMedium(const GridMediumParams& params, const Transform& worldFromMedium) {
   GridField field(params.grid, worldFromMedium);
-  const SuperVoxelLattice cells = field.lattice(params.bounds.cells);
-  FieldBounds bounds = params.bounds.source == BoundsParams::Source::Exact
-                           ? FieldBounds::proven(field.superVoxels(cells))
-                           : unprovenBounds(params, cells);
+  FieldBounds bounds = boundsOf(params, field);
   return std::make_unique<FieldMedium>(
       params, "heterogeneous", std::make_unique<FieldKernel<GridField>>(std::move(field), std::move(bounds)));
 }

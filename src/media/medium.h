@@ -94,6 +94,9 @@ class Medium {
   virtual bool isExponential() const { return true; }
   /// Extinction coefficient, where a density scales it that at density 1. Tells how far channels differ.
   virtual Rgb sigmaT() const = 0;
+  /// The largest extinction at which it scatters, of any channel anywhere, by the bounds in force; 0:
+  /// nowhere.
+  virtual double densestScattering() const { return 0; }
 
   /// Coefficients at a point.
   virtual MediumPoint at(Point3f p, RenderCounters& counters) const = 0;

@@ -10,4 +10,12 @@ namespace pbrtmedia {
 /// SceneError (location unknown) when a parameter is out of range.
 FieldBounds unprovenBounds(const FieldMediumParams& params, const SuperVoxelLattice& cells);
 
+/// The bounds that params.bounds asks for, of a field that knows its own.
+template <class Field>
+FieldBounds boundsOf(const FieldMediumParams& params, const Field& field) {
+  const SuperVoxelLattice cells = field.lattice(params.bounds.cells);
+  return params.bounds.source == BoundsParams::Source::Exact ? FieldBounds::proven(field.superVoxels(cells))
+                                                             : unprovenBounds(params, cells);
+}
+
 }  // namespace pbrtmedia

@@ -12,10 +12,7 @@ namespace pbrtmedia {
 std::unique_ptr<Medium> makeNanoVdbMedium(const NanoVdbMediumParams& params,
                                           const Transform& worldFromMedium) {
   NanoVdbField field(params.field, worldFromMedium);
-  const SuperVoxelLattice cells = field.lattice(params.bounds.cells);
-  FieldBounds bounds = params.bounds.source == BoundsParams::Source::Exact
-                           ? FieldBounds::proven(field.superVoxels(cells))
-                           : unprovenBounds(params, cells);
+  FieldBounds bounds = boundsOf(params, field);
   return std::make_unique<FieldMedium>(
       params, NanoVdbField::kTypeName,
       std::make_unique<FieldKernel<NanoVdbField>>(std::move(field), std::move(bounds)));

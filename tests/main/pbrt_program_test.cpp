@@ -631,15 +631,14 @@ TEST_F(Pbrt, EndsPathsThatScatterWhereCoordinatesCannotTell) {
 }
 
 TEST_F(Pbrt, SaysWhichExtinctionComesOutRightWhereOneIsTooLargeForCoordinates) {
-  const auto outputAt = [&](const std::string& sigma) {
+  const auto outputAt = [&](const std::string& sigma, const std::string& type = "\"homogeneous\"") {
     folder_.write(
         "milk.pbrt",
         "LookAt 0 0 -5  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 10 "
         "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" \"m.exr\" "
         "Sampler \"random\" \"integer pixelsamples\" 1 Integrator \"volpath\" WorldBegin "
-        "LightSource \"infinite\" MakeNamedMedium \"milk\" \"string type\" \"homogeneous\" "
-        "\"rgb sigma_s\" [" +
-            sigma + " " + sigma + " " + sigma +
+        "LightSource \"infinite\" MakeNamedMedium \"milk\" \"string type\" " +
+            type + " \"rgb sigma_s\" [" + sigma + " " + sigma + " " + sigma +
             "] \"rgb sigma_a\" [0 0 0] "
             "MediumInterface \"milk\" \"\" Material \"\" Shape \"sphere\" WorldEnd");
     const ProcessResult r = pbrt("milk.pbrt");
@@ -648,8 +647,16 @@ TEST_F(Pbrt, SaysWhichExtinctionComesOutRightWhereOneIsTooLargeForCoordinates) {
   };
   const std::string dense = outputAt("1e15");
   EXPECT_NE(dense.find("medium \"milk\": its mean free path, 1e-15"), std::string::npos) << dense;
-  EXPECT_NE(dense.find("an extinction of at most 1.1259e+13 looks the same"), std::string::npos) << dense;
+  EXPECT_NE(dense.find("an extinction of at most 1.41e+13 looks the same"), std::string::npos) << dense;
   EXPECT_EQ(outputAt("1e12").find("mean free path"), std::string::npos);
+  // The box of a grid is told less well.
+  const std::string grid =
+      "\"heterogeneous\" \"point p0\" [-1 -1 -1] \"point p1\" [1 1 1] \"float density\" [2] \"integer nx\" 1 "
+      "\"integer ny\" 1 \"integer nz\" 1";
+  const std::string box = outputAt("1e6", grid);
+  EXPECT_NE(box.find("its mean free path, 5e-07"), std::string::npos) << box;
+  EXPECT_NE(box.find("an extinction of at most 8.39e+05 looks the same"), std::string::npos) << box;
+  EXPECT_EQ(outputAt("4e5", grid).find("mean free path"), std::string::npos);
 }
 
 TEST_F(Pbrt, WritesNoImageWhenItIsStoppedBeforeTheFirstSample) {
