@@ -116,14 +116,6 @@ inline ZTest zTestOfMean(const std::string& text, double truth, std::size_t chan
   return zTest(means, truth, firstSeed);
 }
 
-/// The mean of an image whose samples are 1 with probability `truth` and else 0, against that: the standard
-/// error is known, so a rare event needs no luck.
-inline ZTest zTestOfHits(const std::string& text, double truth, std::uint64_t seed = 1) {
-  const Rendered r = renderText(text, {.seed = seed});
-  const auto n = static_cast<double>(r.result.samplesTaken);
-  return {imageMean(r.image), truth, std::sqrt(truth * (1 - truth) / n), 0, seed, r.result.samplesTaken};
-}
-
 // ---- Pieces of scenes
 // ----------------------------------------------------------------------------------------------
 
