@@ -28,7 +28,8 @@ constexpr BsdfFlags sideOf(bool isReflection) {
 
 }  // namespace
 
-Bsdf::Bsdf(const SurfaceInteraction& si, float eta) : frame_(shadingFrame(si)), ng_(si.n), eta_(eta) {}
+Bsdf::Bsdf(const SurfaceInteraction& si, TransportMode mode, float eta)
+    : frame_(shadingFrame(si)), ng_(si.n), eta_(eta), mode_(mode) {}
 
 void Bsdf::add(const Lobe& lobe) {
   CHECK_LT(count_, kMaxLobes) << "too many lobes at one surface point";
@@ -41,6 +42,11 @@ std::size_t Bsdf::count(BsdfFlags allowed) const {
   return n;
 }
 
+float Bsdf::shadingCorrection(Vector3f wo, Vector3f wi) const {
+  const float across = absDot(wo, ng_) * absDot(wi, frame_.n);
+  return across > 0 ? absDot(wo, frame_.n) * absDot(wi, ng_) / across : 0;
+}
+
 Rgb Bsdf::f(Vector3f woWorld, Vector3f wiWorld, BsdfFlags allowed) const {
   const Vector3f wo = frame_.toLocal(woWorld), wi = frame_.toLocal(wiWorld);
   if (wo.z == 0) return {};
@@ -50,6 +56,7 @@ Rgb Bsdf::f(Vector3f woWorld, Vector3f wiWorld, BsdfFlags allowed) const {
     const BsdfFlags flags = lobes_[i].flags();
     if (matches(flags, allowed) && any(flags & side)) sum += lobes_[i].f(wo, wi);
   }
+  if (mode_ == TransportMode::Importance) sum *= shadingCorrection(woWorld, wiWorld);
   return sum;
 }
 
@@ -93,6 +100,7 @@ BsdfSample Bsdf::sample(Vector3f woWorld, Point2f u, BsdfFlags allowed) const {
     }
   }
   result.pdf /= static_cast<float>(matching);
+  if (mode_ == TransportMode::Importance) result.f *= shadingCorrection(woWorld, result.wi);
   return result;
 }
 

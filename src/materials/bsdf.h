@@ -7,6 +7,7 @@
 #include "base/vec.h"
 #include "materials/bsdf_flags.h"
 #include "materials/lobes.h"
+#include "materials/transport_mode.h"
 #include "shapes/surface_interaction.h"
 #include "spectrum/rgb.h"
 
@@ -21,20 +22,25 @@ struct BsdfSample {
 
 /// A sum of lobes in one shading frame: a plain value, no allocation. Rules of the scene-language
 /// reference 15.1: reflection or transmission is judged by the geometric normal, the cosine uses the shading
-/// normal.
+/// normal. For importance, f is what makes f |wi·ns| the adjoint of that, in both of its uses (sampling on
+/// and connecting): f of radiance with wo and wi exchanged, times `shadingCorrection`.
 class Bsdf {
  public:
   static constexpr std::size_t kMaxLobes = 8;
 
   Bsdf() = default;  ///< no lobes: black
   /// `eta`: relative index of the surface, for roulette book-keeping (1: none).
-  explicit Bsdf(const SurfaceInteraction& si, float eta = 1);
+  Bsdf(const SurfaceInteraction& si, TransportMode mode, float eta = 1);
 
   /// CHECK-fails past kMaxLobes (construction refuses such mixes).
   void add(const Lobe& lobe);
   std::size_t count(BsdfFlags allowed = BsdfFlags::All) const;
   float eta() const { return eta_; }
   Normal3f shadingNormal() const { return frame_.n; }
+
+  /// |wo·ns| |wi·ng| / (|wo·ng| |wi·ns|) with the shading normal ns and the geometric normal ng: Veach 1997,
+  /// section 5.3. Unbounded at grazing angles; 0 where a direction lies in one of the planes.
+  float shadingCorrection(Vector3f wo, Vector3f wi) const;
 
   /// World-space unit directions, both pointing away from the surface.
   Rgb f(Vector3f wo, Vector3f wi, BsdfFlags allowed = BsdfFlags::All) const;
@@ -54,6 +60,7 @@ class Bsdf {
   Frame frame_;
   Normal3f ng_{0, 0, 1};
   float eta_ = 1;
+  TransportMode mode_ = TransportMode::Radiance;
 };
 
 }  // namespace pbrtmedia

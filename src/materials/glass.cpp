@@ -18,10 +18,10 @@ std::size_t GlassMaterial::maxLobes() const {
   return (isAlwaysBlack(*params_.kr) ? 0u : 1u) + (isAlwaysBlack(*params_.kt) ? 0u : 1u);
 }
 
-Bsdf GlassMaterial::bsdf(SurfaceInteraction& si, bool mergeSpecular) const {
+Bsdf GlassMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const {
   applyBumpMap(params_.bumpMap, si);
   const float eta = params_.eta->evaluate(si);
-  Bsdf bsdf(si, eta);
+  Bsdf bsdf(si, mode, eta);
   const Rgb kr = reflectanceAt(*params_.kr, si), kt = reflectanceAt(*params_.kt, si);
   if (kr.isBlack() && kt.isBlack()) return bsdf;
 
@@ -30,16 +30,16 @@ Bsdf GlassMaterial::bsdf(SurfaceInteraction& si, bool mergeSpecular) const {
   // Facets of a boundary between equal indices bend nothing, however rough: the limit is the smooth case.
   if ((u == 0 && v == 0) || eta == 1) {
     if (mergeSpecular) {
-      bsdf.add(Lobe(Rgb(1), FresnelSpecular{kr, kt, 1, eta}));
+      bsdf.add(Lobe(Rgb(1), FresnelSpecular{kr, kt, 1, eta, mode}));
       return bsdf;
     }
     if (!kr.isBlack()) bsdf.add(Lobe(kr, SpecularReflection{fresnel}));
-    if (!kt.isBlack()) bsdf.add(Lobe(kt, SpecularTransmission{1, eta}));
+    if (!kt.isBlack()) bsdf.add(Lobe(kt, SpecularTransmission{1, eta, mode}));
     return bsdf;
   }
   const TrowbridgeReitz distribution = distributionAt(u, v, params_.remapRoughness);
   if (!kr.isBlack()) bsdf.add(Lobe(kr, MicrofacetReflection{distribution, fresnel}));
-  if (!kt.isBlack()) bsdf.add(Lobe(kt, MicrofacetTransmission{distribution, 1, eta}));
+  if (!kt.isBlack()) bsdf.add(Lobe(kt, MicrofacetTransmission{distribution, 1, eta, mode}));
   return bsdf;
 }
 

@@ -22,7 +22,7 @@ class GlassMaterial final : public Material {
  public:
   /// Throws std::invalid_argument for a missing texture.
   explicit GlassMaterial(const GlassParams& params);
-  Bsdf bsdf(SurfaceInteraction& si, bool mergeSpecular) const override;
+  Bsdf bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const override;
   std::size_t maxLobes() const override;
 
  private:

@@ -14,8 +14,8 @@ class Material {
   virtual ~Material() = default;
   /// Applies the bump map (changes `si.shading`) and returns the lobes. `mergeSpecular`: smooth glass is one
   /// lobe that picks reflection or transmission (path, volpath); false: two lobes (whitted, directlighting).
-  /// Camera paths: transmitted radiance is scaled by (eta_i/eta_t)².
-  virtual Bsdf bsdf(SurfaceInteraction& si, bool mergeSpecular) const = 0;
+  /// `mode`: whether what is asked for is scattered radiance or importance.
+  virtual Bsdf bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const = 0;
   /// No point of the surface has more lobes; mixes past Bsdf::kMaxLobes are refused when they are built.
   virtual std::size_t maxLobes() const = 0;
 };

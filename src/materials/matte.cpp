@@ -15,9 +15,9 @@ MatteMaterial::MatteMaterial(const MatteParams& params) : params_(params) {
 
 std::size_t MatteMaterial::maxLobes() const { return isAlwaysBlack(*params_.kd) ? 0 : 1; }
 
-Bsdf MatteMaterial::bsdf(SurfaceInteraction& si, bool) const {
+Bsdf MatteMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool) const {
   applyBumpMap(params_.bumpMap, si);
-  Bsdf bsdf(si);
+  Bsdf bsdf(si, mode);
   const Rgb kd = reflectanceAt(*params_.kd, si);
   if (kd.isBlack()) return bsdf;
   const float sigma = std::clamp(params_.sigma->evaluate(si), 0.0f, 90.0f);

@@ -18,7 +18,7 @@ class MatteMaterial final : public Material {
  public:
   /// Throws std::invalid_argument for a missing texture.
   explicit MatteMaterial(const MatteParams& params);
-  Bsdf bsdf(SurfaceInteraction& si, bool mergeSpecular) const override;
+  Bsdf bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const override;
   std::size_t maxLobes() const override;
 
  private:

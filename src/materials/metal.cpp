@@ -17,9 +17,9 @@ MetalMaterial::MetalMaterial(const MetalParams& params) : params_(params) {
 
 std::size_t MetalMaterial::maxLobes() const { return 1; }
 
-Bsdf MetalMaterial::bsdf(SurfaceInteraction& si, bool) const {
+Bsdf MetalMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool) const {
   applyBumpMap(params_.bumpMap, si);
-  Bsdf bsdf(si);
+  Bsdf bsdf(si, mode);
   const float u = params_.uRoughness->evaluate(si), v = params_.vRoughness->evaluate(si);
   const ConductorFresnel fresnel{params_.eta->evaluate(si), params_.k->evaluate(si)};
   bsdf.add(Lobe(Rgb(1), MicrofacetReflection{distributionAt(u, v, params_.remapRoughness), fresnel}));

@@ -26,7 +26,7 @@ class MetalMaterial final : public Material {
  public:
   /// Throws std::invalid_argument for a missing texture.
   explicit MetalMaterial(const MetalParams& params);
-  Bsdf bsdf(SurfaceInteraction& si, bool mergeSpecular) const override;
+  Bsdf bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const override;
   std::size_t maxLobes() const override;
 
  private:

@@ -4,6 +4,7 @@
 #include "materials/fresnel.h"
 #include "materials/local_frame.h"
 #include "materials/microfacet.h"
+#include "materials/transport_mode.h"
 
 namespace pbrtmedia {
 
@@ -21,12 +22,13 @@ struct MicrofacetReflection {
 };
 
 /// Refraction by microfacets of a dielectric: Walter et al. 2007, Eq. (21), which is already the law for
-/// radiance seen along wo (it holds the factor (eta_i/eta_t)²). F at wo·h.
+/// radiance seen along wo (it holds the factor (eta_o/eta_i)²); importance is without it. F at wo·h.
 struct MicrofacetTransmission {
   static constexpr BsdfFlags kFlags = BsdfFlags::Transmission | BsdfFlags::Glossy;
 
   TrowbridgeReitz distribution;
   float etaA = 1, etaB = 1.5f;  ///< indices on the normal's side and the other; must differ
+  TransportMode mode = TransportMode::Radiance;
 
   Rgb f(Vector3f wo, Vector3f wi) const;
   float pdf(Vector3f wo, Vector3f wi) const;

@@ -12,9 +12,9 @@ MirrorMaterial::MirrorMaterial(const MirrorParams& params) : params_(params) {
 
 std::size_t MirrorMaterial::maxLobes() const { return isAlwaysBlack(*params_.kr) ? 0 : 1; }
 
-Bsdf MirrorMaterial::bsdf(SurfaceInteraction& si, bool) const {
+Bsdf MirrorMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool) const {
   applyBumpMap(params_.bumpMap, si);
-  Bsdf bsdf(si);
+  Bsdf bsdf(si, mode);
   const Rgb kr = reflectanceAt(*params_.kr, si);
   if (!kr.isBlack()) bsdf.add(Lobe(kr, SpecularReflection{NoFresnel{}}));
   return bsdf;

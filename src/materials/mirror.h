@@ -17,7 +17,7 @@ class MirrorMaterial final : public Material {
  public:
   /// Throws std::invalid_argument for a missing texture.
   explicit MirrorMaterial(const MirrorParams& params);
-  Bsdf bsdf(SurfaceInteraction& si, bool mergeSpecular) const override;
+  Bsdf bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const override;
   std::size_t maxLobes() const override;
 
  private:

@@ -14,14 +14,14 @@ MixMaterial::MixMaterial(const Material& material1, const Material& material2, c
                               " are possible at one surface point");
 }
 
-Bsdf MixMaterial::bsdf(SurfaceInteraction& si, bool mergeSpecular) const {
+Bsdf MixMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const {
   const Rgb weight1 = amount_->evaluate(si).nonNegative();
   const Rgb weight2 = (Rgb(1) - weight1).nonNegative();
   SurfaceInteraction other = si;  // the second bump map is applied here, and forgotten
-  Bsdf bsdf = material1_->bsdf(si, mergeSpecular);
+  Bsdf bsdf = material1_->bsdf(si, mode, mergeSpecular);
   bsdf.scale(weight1);
   if (weight2.isBlack()) return bsdf;
-  Bsdf second = material2_->bsdf(other, mergeSpecular);
+  Bsdf second = material2_->bsdf(other, mode, mergeSpecular);
   second.scale(weight2);
   for (std::size_t i = 0; i < second.lobeCount(); ++i) bsdf.add(second.lobe(i));
   return bsdf;

@@ -13,7 +13,7 @@ class MixMaterial final : public Material {
  public:
   /// Borrows all three. Throws std::invalid_argument when a point could have more than Bsdf::kMaxLobes lobes.
   MixMaterial(const Material& material1, const Material& material2, const RgbTexture& amount);
-  Bsdf bsdf(SurfaceInteraction& si, bool mergeSpecular) const override;
+  Bsdf bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const override;
   std::size_t maxLobes() const override { return material1_->maxLobes() + material2_->maxLobes(); }
 
  private:

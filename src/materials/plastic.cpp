@@ -16,9 +16,9 @@ std::size_t PlasticMaterial::maxLobes() const {
   return (isAlwaysBlack(*params_.kd) ? 0u : 1u) + (isAlwaysBlack(*params_.ks) ? 0u : 1u);
 }
 
-Bsdf PlasticMaterial::bsdf(SurfaceInteraction& si, bool) const {
+Bsdf PlasticMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool) const {
   applyBumpMap(params_.bumpMap, si);
-  Bsdf bsdf(si);
+  Bsdf bsdf(si, mode);
   const Rgb kd = reflectanceAt(*params_.kd, si);
   if (!kd.isBlack()) bsdf.add(Lobe(kd, LambertReflection{}));
   const Rgb ks = reflectanceAt(*params_.ks, si);

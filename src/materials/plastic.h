@@ -21,7 +21,7 @@ class PlasticMaterial final : public Material {
  public:
   /// Throws std::invalid_argument for a missing texture.
   explicit PlasticMaterial(const PlasticParams& params);
-  Bsdf bsdf(SurfaceInteraction& si, bool mergeSpecular) const override;
+  Bsdf bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const override;
   std::size_t maxLobes() const override;
 
  private:

@@ -3,6 +3,7 @@
 
 #include "materials/fresnel.h"
 #include "materials/local_frame.h"
+#include "materials/transport_mode.h"
 
 namespace pbrtmedia {
 
@@ -17,11 +18,12 @@ struct SpecularReflection {
   LobeSample sample(Vector3f wo, Point2f u) const;
 };
 
-/// Perfect refraction with weight 1 - F, radiance scaled by (eta_i/eta_t)².
+/// Perfect refraction with weight 1 - F; radiance, not importance, is scaled by (eta_o/eta_i)².
 struct SpecularTransmission {
   static constexpr BsdfFlags kFlags = BsdfFlags::Transmission | BsdfFlags::Specular;
 
   float etaA = 1, etaB = 1.5f;  ///< indices on the normal's side and the other; equal: straight through
+  TransportMode mode = TransportMode::Radiance;
 
   Rgb f(Vector3f, Vector3f) const { return {}; }
   float pdf(Vector3f, Vector3f) const { return 0; }
@@ -34,6 +36,7 @@ struct FresnelSpecular {
 
   Rgb reflectance{1}, transmittance{1};
   float etaA = 1, etaB = 1.5f;
+  TransportMode mode = TransportMode::Radiance;
 
   Rgb f(Vector3f, Vector3f) const { return {}; }
   float pdf(Vector3f, Vector3f) const { return 0; }

@@ -17,9 +17,9 @@ std::size_t SubstrateMaterial::maxLobes() const {
   return isAlwaysBlack(*params_.kd) && isAlwaysBlack(*params_.ks) ? 0 : 1;
 }
 
-Bsdf SubstrateMaterial::bsdf(SurfaceInteraction& si, bool) const {
+Bsdf SubstrateMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool) const {
   applyBumpMap(params_.bumpMap, si);
-  Bsdf bsdf(si);
+  Bsdf bsdf(si, mode);
   const Rgb kd = reflectanceAt(*params_.kd, si), ks = reflectanceAt(*params_.ks, si);
   if (kd.isBlack() && ks.isBlack()) return bsdf;
   const float u = params_.uRoughness->evaluate(si), v = params_.vRoughness->evaluate(si);

@@ -21,10 +21,10 @@ std::size_t TranslucentMaterial::maxLobes() const {
   return kinds * sides;
 }
 
-Bsdf TranslucentMaterial::bsdf(SurfaceInteraction& si, bool) const {
+Bsdf TranslucentMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool) const {
   constexpr float kEta = 1.5f;
   applyBumpMap(params_.bumpMap, si);
-  Bsdf bsdf(si, kEta);
+  Bsdf bsdf(si, mode, kEta);
   const Rgb reflect = reflectanceAt(*params_.reflect, si), transmit = reflectanceAt(*params_.transmit, si);
   const Rgb kd = reflectanceAt(*params_.kd, si), ks = reflectanceAt(*params_.ks, si);
   const auto addUnlessBlack = [&bsdf](Rgb weight, const LobeModel& model) {
@@ -36,7 +36,7 @@ Bsdf TranslucentMaterial::bsdf(SurfaceInteraction& si, bool) const {
   const float roughness = params_.roughness->evaluate(si);
   const TrowbridgeReitz distribution = distributionAt(roughness, roughness, params_.remapRoughness);
   addUnlessBlack(reflect * ks, MicrofacetReflection{distribution, DielectricFresnel{1, kEta}});
-  addUnlessBlack(transmit * ks, MicrofacetTransmission{distribution, 1, kEta});
+  addUnlessBlack(transmit * ks, MicrofacetTransmission{distribution, 1, kEta, mode});
   return bsdf;
 }
 

@@ -28,12 +28,12 @@ std::size_t UberMaterial::maxLobes() const {
   return lobes + (isOpaque ? 0 : 1);
 }
 
-Bsdf UberMaterial::bsdf(SurfaceInteraction& si, bool) const {
+Bsdf UberMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool) const {
   applyBumpMap(params_.bumpMap, si);
   const float eta = params_.eta->evaluate(si);
   const Rgb opacity = reflectanceAt(*params_.opacity, si);
   const Rgb through = (Rgb(1) - opacity).nonNegative();
-  Bsdf bsdf(si, through.isBlack() ? eta : 1.0f);
+  Bsdf bsdf(si, mode, through.isBlack() ? eta : 1.0f);
   if (!through.isBlack()) bsdf.add(Lobe(through, SpecularTransmission{1, 1}));
 
   const Rgb kd = opacity * reflectanceAt(*params_.kd, si);
@@ -47,7 +47,7 @@ Bsdf UberMaterial::bsdf(SurfaceInteraction& si, bool) const {
   const Rgb kr = opacity * reflectanceAt(*params_.kr, si);
   if (!kr.isBlack()) bsdf.add(Lobe(kr, SpecularReflection{fresnel}));
   const Rgb kt = opacity * reflectanceAt(*params_.kt, si);
-  if (!kt.isBlack()) bsdf.add(Lobe(kt, SpecularTransmission{1, eta}));
+  if (!kt.isBlack()) bsdf.add(Lobe(kt, SpecularTransmission{1, eta, mode}));
   return bsdf;
 }
 

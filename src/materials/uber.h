@@ -27,7 +27,7 @@ class UberMaterial final : public Material {
  public:
   /// Throws std::invalid_argument for a missing texture.
   explicit UberMaterial(const UberParams& params);
-  Bsdf bsdf(SurfaceInteraction& si, bool mergeSpecular) const override;
+  Bsdf bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const override;
   std::size_t maxLobes() const override;
 
  private:

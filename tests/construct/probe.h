@@ -61,7 +61,8 @@ inline Numbers bsdfValues(const Attempt& a) {
     const auto hit = scene.closest(ray, 0, Exclusions{}, queries);
     if (!hit) continue;
     SurfaceInteraction si = scene.surface(*hit, ray);
-    append(n, hit->primitive->material->bsdf(si, true).f(si.wo, Vector3f(0.36f, 0.48f, 0.8f)));
+    append(n, hit->primitive->material->bsdf(si, TransportMode::Radiance, true)
+                  .f(si.wo, Vector3f(0.36f, 0.48f, 0.8f)));
   }
   return n;
 }
@@ -79,7 +80,7 @@ inline Numbers materials(const Attempt& a, float footprint = 0) {
     si.dvdx = -footprint / 3;
     si.dpdx = footprint * si.dpdu;
     si.dpdy = footprint * si.dpdv;
-    const Bsdf bsdf = hit->primitive->material->bsdf(si, true);
+    const Bsdf bsdf = hit->primitive->material->bsdf(si, TransportMode::Radiance, true);
     n.push_back(static_cast<double>(bsdf.lobeCount()));
     n.push_back(bsdf.eta());
     append(n, bsdf.shadingNormal());

@@ -15,14 +15,14 @@ using test::flatSurface;
 using test::polar;
 
 Bsdf twoSided() {
-  Bsdf bsdf(flatSurface());
+  Bsdf bsdf(flatSurface(), TransportMode::Radiance);
   bsdf.add(Lobe(Rgb(0.5f), LambertReflection{}));
   bsdf.add(Lobe(Rgb(0.25f), LambertTransmission{}));
   return bsdf;
 }
 
 TEST(Bsdf, WithoutLobesIsBlack) {
-  const Bsdf bsdf(flatSurface());
+  const Bsdf bsdf(flatSurface(), TransportMode::Radiance);
   EXPECT_EQ(bsdf.count(), 0u);
   EXPECT_EQ(bsdf.f({0, 0, 1}, {0, 0, 1}), Rgb());
   EXPECT_EQ(bsdf.pdf({0, 0, 1}, {0, 0, 1}), 0);
@@ -38,7 +38,7 @@ TEST(Bsdf, SumsLobesOfTheSideThatTheGeometricNormalSees) {
   SurfaceInteraction tilted = flatSurface();
   tilted.shading.n = polar(40, 0);  // leans toward +x
   tilted.shading.dpdu = polar(130, 0);
-  Bsdf leaning(tilted);
+  Bsdf leaning(tilted, TransportMode::Radiance);
   leaning.add(Lobe(Rgb(0.5f), LambertReflection{}));
   leaning.add(Lobe(Rgb(0.25f), LambertTransmission{}));
   // Below the shading plane but above the surface: reflection.
@@ -76,7 +76,7 @@ TEST(Bsdf, PicksLobesUniformlyAndReusesTheNumber) {
 }
 
 TEST(Bsdf, ReturnsTheSumForSmoothSamplesAndTheLobeAloneForSpecularOnes) {
-  Bsdf bsdf(flatSurface());
+  Bsdf bsdf(flatSurface(), TransportMode::Radiance);
   bsdf.add(Lobe(Rgb(0.5f), LambertReflection{}));
   bsdf.add(Lobe(Rgb(0.25f), OrenNayar(30)));
   bsdf.add(Lobe(Rgb(0.9f), SpecularReflection{NoFresnel{}}));
@@ -98,7 +98,7 @@ TEST(Bsdf, DropsSamplesThatTheGeometricNormalCallsTheOtherSide) {
   SurfaceInteraction si = flatSurface();
   si.shading.n = polar(60, 0);
   si.shading.dpdu = polar(150, 0);
-  Bsdf bsdf(si);
+  Bsdf bsdf(si, TransportMode::Radiance);
   bsdf.add(Lobe(Rgb(0.5f), LambertReflection{}));
   Rng rng(2);
   int below = 0;
@@ -111,17 +111,80 @@ TEST(Bsdf, DropsSamplesThatTheGeometricNormalCallsTheOtherSide) {
   EXPECT_GT(below, 10);
 }
 
+/// A surface whose shading normal leans toward +x by 30 degrees.
+Bsdf leaning(TransportMode mode) {
+  SurfaceInteraction si = flatSurface();
+  si.shading.n = polar(30, 0);
+  si.shading.dpdu = polar(120, 0);
+  Bsdf bsdf(si, mode, 1.5f);
+  bsdf.add(Lobe(Rgb(0.5f), LambertReflection{}));
+  bsdf.add(Lobe(Rgb(0.25f), LambertTransmission{}));
+  bsdf.add(Lobe(Rgb(0.3f), MicrofacetReflection{TrowbridgeReitz(0.4f, 0.2f), DielectricFresnel{1, 1.5f}}));
+  bsdf.add(Lobe(Rgb(0.8f), MicrofacetTransmission{TrowbridgeReitz(0.4f, 0.2f), 1, 1.5f, mode}));
+  return bsdf;
+}
+
+TEST(Bsdf, OfImportanceIsTheAdjointOfThatOfRadianceUnderShadingNormalsToo) {
+  // Power through the surface is measured with the geometric normal:
+  // f*(wo, wi) |wi·ns| |wo·ng| = f(wi, wo) |wo·ns| |wi·ng|.
+  const Bsdf radiance = leaning(TransportMode::Radiance), importance = leaning(TransportMode::Importance);
+  const Normal3f ng{0, 0, 1}, ns = radiance.shadingNormal();
+  Rng rng(3);
+  int reflected = 0, transmitted = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Vector3f a = sampleUniformSphere({rng.uniform(), rng.uniform()}),
+                   b = sampleUniformSphere({rng.uniform(), rng.uniform()});
+    const float there = importance.f(a, b).g * absDot(b, ns) * absDot(a, ng),
+                back = radiance.f(b, a).g * absDot(a, ns) * absDot(b, ng);
+    EXPECT_NEAR(there, back, 2e-4f * (there + back) + 1e-6f) << a << b;
+    EXPECT_EQ(importance.pdf(a, b), radiance.pdf(a, b));
+    (isSameHemisphere(a, b) ? reflected : transmitted) += there > 0.01f ? 1 : 0;
+  }
+  EXPECT_GT(reflected, 50);
+  EXPECT_GT(transmitted, 50);
+}
+
+TEST(Bsdf, SamplesImportanceWithItsOwnLaw) {
+  const Bsdf importance = leaning(TransportMode::Importance);
+  Rng rng(4);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3f wo = polar(40, 200);
+    const BsdfSample s = importance.sample(wo, {rng.uniform(), rng.uniform()});
+    if (!(s.pdf > 0)) continue;
+    const Rgb f = importance.f(wo, s.wi);
+    EXPECT_NEAR(s.f.g, f.g, 1e-4f * f.g + 1e-6f) << s.wi;
+  }
+}
+
+TEST(Bsdf, CorrectsMirrorsForImportanceToo) {
+  Bsdf radiance = leaning(TransportMode::Radiance), importance = leaning(TransportMode::Importance);
+  const Lobe mirror(Rgb(0.9f), SpecularReflection{NoFresnel{}});
+  radiance.add(mirror);
+  importance.add(mirror);
+  const Vector3f wo = polar(50, 100);
+  const BsdfFlags allowed = BsdfFlags::Specular | BsdfFlags::Reflection;
+  const BsdfSample r = radiance.sample(wo, {}, allowed), i = importance.sample(wo, {}, allowed);
+  EXPECT_EQ(r.wi, i.wi);
+  EXPECT_NEAR(i.f.g, r.f.g * r.wi.z / wo.z, 1e-6f);  // the shading normal sees both directions alike
+}
+
+TEST(Bsdf, HasNoCorrectionWhereTheShadingNormalIsTheGeometricOne) {
+  const Bsdf flat(flatSurface(), TransportMode::Importance);
+  EXPECT_FLOAT_EQ(flat.shadingCorrection(polar(20, 10), polar(70, 100)), 1);
+  EXPECT_EQ(flat.shadingCorrection(polar(20, 10), {1, 0, 0}), 0);
+}
+
 TEST(Bsdf, TakesLocalXAlongTheShadingTangent) {
   // Anisotropic facets: narrow along x = dp/du, so the lobe is wide across it.
   SurfaceInteraction si = flatSurface();
   si.shading.dpdu = {0, 3, 1};  // made orthogonal to the normal: +y
-  Bsdf bsdf(si);
+  Bsdf bsdf(si, TransportMode::Radiance);
   const Lobe lobe(Rgb(1), MicrofacetReflection{TrowbridgeReitz(0.1f, 0.6f), NoFresnel{}});
   bsdf.add(lobe);
   EXPECT_FLOAT_EQ(bsdf.f({0, 0, 1}, polar(40, 90)).r, lobe.f({0, 0, 1}, polar(40, 0)).r);
   EXPECT_FLOAT_EQ(bsdf.f({0, 0, 1}, polar(40, 0)).r, lobe.f({0, 0, 1}, polar(40, 90)).r);
   si.shading.dpdu = {0, 0, 0};  // no tangent: any frame, still finite
-  Bsdf degenerate(si);
+  Bsdf degenerate(si, TransportMode::Radiance);
   degenerate.add(lobe);
   EXPECT_GT(degenerate.f({0, 0, 1}, polar(10, 0)).r, 0);
 }
@@ -136,7 +199,7 @@ TEST(Bsdf, ScalesAndDropsWhatBecomesBlack) {
 }
 
 TEST(BsdfDeathTest, DiesPastItsMostLobes) {
-  Bsdf bsdf(flatSurface());
+  Bsdf bsdf(flatSurface(), TransportMode::Radiance);
   for (std::size_t i = 0; i < Bsdf::kMaxLobes; ++i) bsdf.add(Lobe(Rgb(0.1f), LambertReflection{}));
   EXPECT_DEATH(bsdf.add(Lobe(Rgb(0.1f), LambertReflection{})), "too many lobes");
 }

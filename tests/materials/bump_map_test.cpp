@@ -114,10 +114,10 @@ TEST(BumpMap, ReachesTheBsdfOfAMaterialAndOnlyThatOfTheFirstInAMix) {
   const MatteMaterial first({.kd = &half, .sigma = &zero, .bumpMap = &toX});
   const MatteMaterial second({.kd = &half, .sigma = &zero, .bumpMap = &toY});
   SurfaceInteraction si = flatSurface();
-  expectNear(first.bsdf(si, true).shadingNormal(), normalize(Vector3f{-1, 0, 1}));
+  expectNear(first.bsdf(si, TransportMode::Radiance, true).shadingNormal(), normalize(Vector3f{-1, 0, 1}));
   expectNear(si.shading.n, normalize(Vector3f{-1, 0, 1}));
   SurfaceInteraction mixed = flatSurface();
-  expectNear(MixMaterial(first, second, half).bsdf(mixed, true).shadingNormal(),
+  expectNear(MixMaterial(first, second, half).bsdf(mixed, TransportMode::Radiance, true).shadingNormal(),
              normalize(Vector3f{-1, 0, 1}));
 }
 

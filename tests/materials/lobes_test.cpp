@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "base/warp.h"
 #include "materials/bsdf_test_support.h"
 
 namespace pbrtmedia {
@@ -130,6 +131,69 @@ TEST(MicrofacetTransmission, KeepsTheEnergyOfGlassTogetherWithReflection) {
     const double r = test::albedoBySampling(test::viewOf(reflection, wo), 0, 2, 40000).mean();
     const double t = test::albedoBySampling(test::viewOf(transmission, wo), 0, 3, 40000).mean();
     EXPECT_NEAR(r + t * scale, 1, 1e-2) << wo;
+  }
+}
+
+TEST(MicrofacetTransmission, LosesNoImportanceTogetherWithReflection) {
+  const TrowbridgeReitz d(0.05f, 0.05f);
+  const Lobe reflection(Rgb(1), MicrofacetReflection{d, DielectricFresnel{1, 1.5f}});
+  const Lobe transmission(Rgb(1), MicrofacetTransmission{d, 1, 1.5f, TransportMode::Importance});
+  for (const Vector3f wo : {polar(10, 0), polar(60, 0), -polar(20, 0), -polar(35, 0)}) {
+    const double r = test::albedoBySampling(test::viewOf(reflection, wo), 0, 2, 40000).mean();
+    const double t = test::albedoBySampling(test::viewOf(transmission, wo), 0, 3, 40000).mean();
+    EXPECT_NEAR(r + t, 1, 1e-2) << wo;
+  }
+}
+
+/// What a refracting lobe lets through of radiance from wi to wo it lets through of importance from wo to wi:
+/// the same but for the solid angle of the pencil, which radiance is per and importance is not.
+void expectAdjointRefraction(const LobeModel& radiance, const LobeModel& importance, Point2f u) {
+  for (const Vector3f wo : {polar(0, 0), polar(40, 30), polar(75, 200), -polar(25, 30), -polar(38, 100)}) {
+    const LobeSample there = Lobe(Rgb(0.7f), radiance).sample(wo, u);
+    ASSERT_GT(there.pdf, 0);
+    ASSERT_TRUE(any(there.flags & BsdfFlags::Transmission));
+    const LobeSample back = Lobe(Rgb(0.7f), importance).sample(there.wi, u);
+    ASSERT_GT(back.pdf, 0);
+    EXPECT_NEAR(distance(back.wi, wo), 0, 2e-6f);
+    const float indices2 = sqr(wo.z > 0 ? 1.5f : 1 / 1.5f);  // (eta_i/eta_o)²
+    EXPECT_NEAR(back.f.g * std::abs(back.wi.z), there.f.g * std::abs(there.wi.z) * indices2, 3e-6f) << wo;
+    EXPECT_NEAR(back.pdf, there.pdf, 3e-6f);
+  }
+}
+
+TEST(SpecularTransmission, OfImportanceIsTheAdjointOfThatOfRadiance) {
+  expectAdjointRefraction(SpecularTransmission{1, 1.5f},
+                          SpecularTransmission{1, 1.5f, TransportMode::Importance}, {});
+}
+
+TEST(FresnelSpecular, OfImportanceIsTheAdjointOfThatOfRadiance) {
+  const FresnelSpecular radiance{Rgb(0.5f), Rgb(0.25f), 1, 1.5f};
+  FresnelSpecular importance = radiance;
+  importance.mode = TransportMode::Importance;
+  expectAdjointRefraction(radiance, importance, {0.99f, 0});
+  // Reflection is the same for both.
+  EXPECT_EQ(Lobe(Rgb(1), radiance).sample(polar(60, 0), {0, 0}).f,
+            Lobe(Rgb(1), importance).sample(polar(60, 0), {0, 0}).f);
+}
+
+TEST(MicrofacetTransmission, OfImportanceIsTheAdjointOfThatOfRadiance) {
+  for (const Vector2f indices : {Vector2f{1, 1.5f}, Vector2f{1.4f, 1}}) {
+    const MicrofacetTransmission radiance{TrowbridgeReitz(0.25f, 0.5f), indices.x, indices.y};
+    MicrofacetTransmission importance = radiance;
+    importance.mode = TransportMode::Importance;
+    Rng rng(8);
+    int compared = 0;
+    for (int i = 0; i < 500; ++i) {
+      const Vector3f a = sampleUniformSphere({rng.uniform(), rng.uniform()});
+      Vector3f b = sampleUniformSphere({rng.uniform(), rng.uniform()});
+      if (isSameHemisphere(a, b)) b.z = -b.z;
+      const float there = radiance.f(a, b).g, back = importance.f(b, a).g;
+      EXPECT_EQ(radiance.pdf(a, b), importance.pdf(a, b));
+      if (there + back < 1e-4f) continue;  // near total reflection 1 - F is the root of a rounding error
+      EXPECT_NEAR(there, back, 1e-4f * (there + back) + 1e-7f) << a << b;
+      ++compared;
+    }
+    EXPECT_GT(compared, 20);
   }
 }
 

@@ -24,9 +24,10 @@ inline const RgbConstant kEta(kCopperEta), kK(kCopperK);
 inline const FloatConstant kZero(0), kTenth(0.1f), kFifth(0.2f), kThirty(30), kGlassIndex(1.5f),
     kHundred(100);
 
-inline Bsdf evaluate(const Material& material, bool mergeSpecular = true) {
+inline Bsdf evaluate(const Material& material, bool mergeSpecular = true,
+                     TransportMode mode = TransportMode::Radiance) {
   SurfaceInteraction si = flatSurface();
-  return material.bsdf(si, mergeSpecular);
+  return material.bsdf(si, mode, mergeSpecular);
 }
 
 inline UberParams uberParams() {

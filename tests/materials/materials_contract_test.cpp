@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(All, SmoothMaterial, testing::ValuesIn(materialCases())
 
 TEST_P(SmoothMaterial, SamplesItsDensity) {
   SurfaceInteraction si = rotatedSurface();
-  const Bsdf bsdf = GetParam().material->bsdf(si, true);
+  const Bsdf bsdf = GetParam().material->bsdf(si, TransportMode::Radiance, true);
   std::uint64_t seed = 300;
   for (const Vector3f wo : views(si.n)) {
     const test::ChiSquareTest result = test::directionTest(test::viewOf(bsdf, wo), seed++);
@@ -72,7 +72,7 @@ TEST_P(SmoothMaterial, SamplesItsDensity) {
 
 TEST_P(SmoothMaterial, IntegratesToTheSameBySamplingAndByUniformDirections) {
   SurfaceInteraction si = rotatedSurface();
-  const Bsdf bsdf = GetParam().material->bsdf(si, true);
+  const Bsdf bsdf = GetParam().material->bsdf(si, TransportMode::Radiance, true);
   for (const Vector3f wo : views(si.n)) {
     const test::ScatteringView view = test::viewOf(bsdf, wo);
     for (const std::size_t channel : {0u, 2u}) {
@@ -83,10 +83,31 @@ TEST_P(SmoothMaterial, IntegratesToTheSameBySamplingAndByUniformDirections) {
   }
 }
 
+TEST_P(SmoothMaterial, ScattersImportanceAsTheAdjointOfRadiance) {
+  SurfaceInteraction si = rotatedSurface();
+  si.shading.n = polar(65, 60);  // leans against the geometric normal
+  const Bsdf radiance = GetParam().material->bsdf(si, TransportMode::Radiance, true);
+  const Bsdf importance = GetParam().material->bsdf(si, TransportMode::Importance, true);
+  EXPECT_EQ(importance.eta(), radiance.eta());
+  Rng rng(11);
+  int compared = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3f a = sampleUniformSphere({rng.uniform(), rng.uniform()}),
+                   b = sampleUniformSphere({rng.uniform(), rng.uniform()});
+    const float there = importance.f(a, b).r * absDot(b, si.shading.n) * absDot(a, si.n),
+                back = radiance.f(b, a).r * absDot(a, si.shading.n) * absDot(b, si.n);
+    EXPECT_NEAR(there, back, 2e-4f * (there + back) + 1e-5f) << a << b;
+    compared += there > 1e-3f ? 1 : 0;
+  }
+  EXPECT_GT(compared, 50);
+}
+
 TEST_P(SmoothMaterial, HasNoMoreLobesThanItSays) {
   SurfaceInteraction si = flatSurface();
-  EXPECT_LE(GetParam().material->bsdf(si, true).lobeCount(), GetParam().material->maxLobes());
-  EXPECT_LE(GetParam().material->bsdf(si, false).lobeCount(), GetParam().material->maxLobes());
+  EXPECT_LE(GetParam().material->bsdf(si, TransportMode::Radiance, true).lobeCount(),
+            GetParam().material->maxLobes());
+  EXPECT_LE(GetParam().material->bsdf(si, TransportMode::Radiance, false).lobeCount(),
+            GetParam().material->maxLobes());
 }
 
 }  // namespace

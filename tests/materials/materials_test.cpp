@@ -252,6 +252,31 @@ TEST(MixMaterial, RefusesMoreLobesThanABsdfHolds) {
   EXPECT_NO_THROW(MixMaterial(fits, opaque, kHalf));
 }
 
+TEST(Materials, RefractImportanceWithoutTheSquaredIndices) {
+  GlassParams glass = glassParams();
+  UberParams uber = uberParams();
+  uber.kd = uber.ks = &kBlack;
+  uber.kt = &kWhite;
+  const GlassMaterial smooth(glass);
+  const UberMaterial opaque(uber);
+  const MixMaterial mixed(smooth, opaque, kReddish);
+  const BsdfFlags through = BsdfFlags::Transmission | BsdfFlags::Specular;
+  const Vector3f wo = polar(35, 20);
+  for (const Material* material :
+       {static_cast<const Material*>(&smooth), static_cast<const Material*>(&opaque),
+        static_cast<const Material*>(&mixed)}) {
+    const BsdfSample radiance = evaluate(*material, false).sample(wo, {0.9f, 0.5f}, through);
+    const BsdfSample importance =
+        evaluate(*material, false, TransportMode::Importance).sample(wo, {0.9f, 0.5f}, through);
+    ASSERT_GT(radiance.f.g, 0);
+    EXPECT_EQ(importance.wi, radiance.wi);
+    EXPECT_NEAR(importance.f.g, 2.25f * radiance.f.g, 1e-5f);
+  }
+  const BsdfSample merged = evaluate(smooth, true).sample(wo, {0.9f, 0.5f});
+  EXPECT_NEAR(evaluate(smooth, true, TransportMode::Importance).sample(wo, {0.9f, 0.5f}).f.g,
+              2.25f * merged.f.g, 1e-5f);
+}
+
 TEST(Materials, RefuseMissingTextures) {
   EXPECT_THROW(MatteMaterial({.kd = &kHalf}), std::invalid_argument);
   EXPECT_THROW(PlasticMaterial({}), std::invalid_argument);

@@ -28,7 +28,7 @@ namespace pbrtmedia::test {
 /// Scatters nothing back.
 class BlackMaterial final : public Material {
  public:
-  Bsdf bsdf(SurfaceInteraction& si, bool) const override { return Bsdf(si); }
+  Bsdf bsdf(SurfaceInteraction& si, TransportMode mode, bool) const override { return Bsdf(si, mode); }
   std::size_t maxLobes() const override { return 0; }
 };
 

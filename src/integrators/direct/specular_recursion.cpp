@@ -145,7 +145,7 @@ Rgb SpecularRecursion::visit(const Next& at, std::unique_ptr<Vertex>& vertex) {
     if (ray.hasDifferentials) point.si.computeDifferentials(ray);
     ++context_.counters.surfaceScatterings;
     samples_.startVertex(at.level);
-    point.bsdf = material->bsdf(point.si, /*mergeSpecular=*/false);
+    point.bsdf = material->bsdf(point.si, TransportMode::Radiance, /*mergeSpecular=*/false);
     if (point.bsdf.count(BsdfFlags::AllButSpecular) > 0) sum += lighting_(point, samples_);
     if (at.level + 1 < maxDepth_ && point.bsdf.count() > point.bsdf.count(BsdfFlags::AllButSpecular)) {
       vertex = std::make_unique<Vertex>(Vertex{point, ray, at.level, at.throughput});

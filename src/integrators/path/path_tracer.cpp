@@ -219,7 +219,8 @@ bool PathTracer::scatterOnSurface() {
   ++counters_.surfaceScatterings;
   samples_.startVertex(bounces_);
   SurfaceInteraction& si = surface_.si;
-  const Bsdf bsdf = surface_.hit.primitive->material->bsdf(si, /*mergeSpecular=*/true);
+  const Bsdf bsdf =
+      surface_.hit.primitive->material->bsdf(si, TransportMode::Radiance, /*mergeSpecular=*/true);
   ownsUniformLights_ = samplingCoversBsdf(bsdf, si);
   if (bsdf.count(BsdfFlags::AllButSpecular) > 0) lightSurface(bsdf);
 
