@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "construct/enum_parameter.h"
 #include "construct/plugins.h"
 #include "construct/tolerance.h"
 #include "integrators/direct/direct_lighting.h"
@@ -51,13 +52,9 @@ IntegratorPlan readPath(ParamReader& in) {
 IntegratorPlan readVolPath(ParamReader& in) {
   PathParams p = readPathParams(in);
   constexpr std::array<std::string_view, 4> kSamplings = {"auto", "collision", "equiangular", "mis"};
-  p.mediumLightSampling =
-      std::array{MediumLightSampling::Auto, MediumLightSampling::Collision, MediumLightSampling::Equiangular,
-                 MediumLightSampling::Mis}[findOwnChoice(in, "mediumlightsampling", kSamplings,
-                                                         static_cast<std::size_t>(p.mediumLightSampling))];
+  p.mediumLightSampling = findOwnEnum(in, "mediumlightsampling", kSamplings, p.mediumLightSampling);
   constexpr std::array<std::string_view, 3> kChannels = {"auto", "shared", "split"};
-  p.channelSampling = std::array{ChannelSampling::Auto, ChannelSampling::Shared,
-                                 ChannelSampling::Split}[findOwnChoice(in, "channelsampling", kChannels, 0)];
+  p.channelSampling = findOwnEnum(in, "channelsampling", kChannels, ChannelSampling::Auto);
   return {[=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
             return std::make_unique<VolPathIntegrator>(
                 scene, p, selectorFor(scene.lightsWithMedia(), scene, p), std::move(cameraMedium));
@@ -69,8 +66,7 @@ IntegratorPlan readDirectLighting(ParamReader& in) {
   DirectLightingParams p;
   p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   constexpr std::array<std::string_view, 2> kStrategies = {"all", "one"};
-  p.strategy = std::array{DirectLightingParams::Strategy::All,
-                          DirectLightingParams::Strategy::One}[in.findChoice("strategy", kStrategies, 0)];
+  p.strategy = findEnum(in, "strategy", kStrategies, DirectLightingParams::Strategy::All);
   return {[=](const Scene& scene, const CameraMedium&) -> std::unique_ptr<Integrator> {
             return std::make_unique<DirectLightingIntegrator>(scene, p);
           },

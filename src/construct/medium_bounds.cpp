@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "construct/enum_parameter.h"
 #include "construct/tolerance.h"
 #include "construct/tracking_parameters.h"
 
@@ -59,8 +60,7 @@ std::string othersOf(const std::vector<std::string_view>& names, const Find& fin
 BoundsParams readBounds(ParamReader& in, BoundsParams::Source fallback) {
   BoundsParams p;
   p.cells = readCells(in);
-  p.source = static_cast<BoundsParams::Source>(
-      findOwnChoice(in, "bounds", kSources, static_cast<std::size_t>(fallback)));
+  p.source = findOwnEnum(in, "bounds", kSources, fallback);
   const auto belongsTo = [&](BoundsParams::Source source, std::string_view name,
                              ParamKind kind = ParamKind::Float) {
     if (p.source == source || !in.has(kind, name)) return p.source == source;

@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "construct/emission.h"
+#include "construct/enum_parameter.h"
 #include "construct/medium_kinds.h"
 #include "construct/medium_params.h"
 #include "construct/plugins.h"
@@ -73,20 +74,10 @@ std::shared_ptr<const RawFile> openRaw(ParamReader& in, const std::filesystem::p
   }
 }
 
-}  // namespace
-
-std::optional<MediumPlan> readHeterogeneousMedium(const MediumInput& input) {
+/// Everything of the grid but its numbers. False where there is no grid, which is told.
+bool readGrid(const MediumInput& input, FieldMediumParams& medium, GridField::Params& grid) {
   ParamReader& in = input.in;
-  const Transform place = input.medium.ctm->start;
-  const bool hasFile = !in.findString("filename", "").empty();
-  std::optional<std::filesystem::path> path;
-  if (hasFile) path = requireVolumeFile(in);
-  if (path && (path->extension() == ".nvdb" || volumeFileOf(*path) == VolumeFile::NanoVdb)) {
-    return readNanoVdbMedium(input);
-  }
-  auto p = std::make_shared<GridMediumParams>();
-  readFieldMediumParams(in, input.medium, DensityKind::InPieces, *p);
-  GridField::Params& grid = p->grid;
+  readFieldMediumParams(in, input.medium, DensityKind::InPieces, medium);
   const std::size_t errorsBefore = in.diagnostics().errorCount();
   const Range size{.max = 1 << 20};
   grid.nx = in.findInt("nx", 1, size);
@@ -94,43 +85,64 @@ std::optional<MediumPlan> readHeterogeneousMedium(const MediumInput& input) {
   grid.nz = in.findInt("nz", 1, size);
   constexpr std::array<std::string_view, 2> kBorders = {"zero", "clamp"}, kPrecisions = {"float", "half"};
   constexpr std::array<std::string_view, 3> kLayouts = {"automatic", "linear", "bricked"};
-  grid.border = static_cast<GridBorder>(findOwnChoice(in, "border", kBorders, 0));
-  grid.precision = static_cast<GridPrecision>(findOwnChoice(in, "precision", kPrecisions, 0));
-  grid.layout = static_cast<GridLayout>(findOwnChoice(in, "layout", kLayouts, 0));
+  grid.border = findOwnEnum(in, "border", kBorders, GridBorder::Zero);
+  grid.precision = findOwnEnum(in, "precision", kPrecisions, GridPrecision::Float);
+  grid.layout = findOwnEnum(in, "layout", kLayouts, GridLayout::Automatic);
   const bool hasRoom = readMediumBox(in, grid.p0, grid.p1);
-  const bool isInline = in.has(ParamKind::Float, "density");
   if (std::min({grid.nx, grid.ny, grid.nz}) < 1) {
     tolerate(in, "found a grid of " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) + " x " +
                      std::to_string(grid.nz) +
                      " samples (nx, ny, nz), expected at least 1 each; the medium is "
                      "vacuum, as in PBRT-v3");
-    return std::nullopt;
+    return false;
   }
-  if (!hasRoom || in.diagnostics().errorCount() > errorsBefore) return std::nullopt;
+  return hasRoom && in.diagnostics().errorCount() == errorsBefore;
+}
+
+/// The medium whose numbers stand in a file; they are decoded when it is built.
+MediumPlan planOfFile(const MediumInput& input, std::shared_ptr<GridMediumParams> p,
+                      const EmissionPlan& emission, std::shared_ptr<const RawFile> file) {
+  return [p = std::move(p), file = std::move(file), emission, place = input.medium.ctm->start,
+          context = input.in.context(), named = input.in.locationOf(ParamKind::String, "filename"),
+          &building = input.building](Textures&) mutable {
+    if (emission) p->emissionPattern = emission(place);
+    GridField::Params& read = p->grid;
+    read.density = decodeRaw(file->bytes, file->format);
+    file.reset();
+    clampNegatives(read.density, read.nx, read.ny, "the file", named, context, building);
+    return builtAt(named, context, [&] {
+      auto made = makeGridMedium(*p, place);
+      *p = {};
+      return made;
+    });
+  };
+}
+
+}  // namespace
+
+std::optional<MediumPlan> readHeterogeneousMedium(const MediumInput& input) {
+  ParamReader& in = input.in;
+  const bool hasFile = !in.findString("filename", "").empty();
+  std::optional<std::filesystem::path> path;
+  if (hasFile) path = requireVolumeFile(in);
+  if (path && (path->extension() == ".nvdb" || volumeFileOf(*path) == VolumeFile::NanoVdb)) {
+    return readNanoVdbMedium(input);
+  }
+  auto p = std::make_shared<GridMediumParams>();
+  GridField::Params& grid = p->grid;
+  const bool isInline = in.has(ParamKind::Float, "density");
+  if (!readGrid(input, *p, grid)) return std::nullopt;
   const std::size_t expected = static_cast<std::size_t>(grid.nx) * static_cast<std::size_t>(grid.ny) *
                                static_cast<std::size_t>(grid.nz);
   const EmissionPlan emission = readGridEmission(input, grid, *p);
   if (hasFile) {
     if (isInline) in.error(ParamKind::String, "filename", "\"float density\" is given too: one of them");
     if (!path || isInline) return std::nullopt;
-    const auto format = static_cast<RawFormat>(findOwnChoice(in, "format", kRawFormats, 0));
+    const auto format = findOwnEnum(in, "format", kRawFormats, RawFormat::Float);
     if (!input.isUsed) return std::nullopt;  // it is there; more is not asked of what nobody sees
     std::shared_ptr<const RawFile> file = openRaw(in, *path, format, expected, grid);
     if (!file) return std::nullopt;
-    return [p, file = std::move(file), emission, place, context = in.context(),
-            named = in.locationOf(ParamKind::String, "filename"),
-            &building = input.building](Textures&) mutable {
-      if (emission) p->emissionPattern = emission(place);
-      GridField::Params& read = p->grid;
-      read.density = decodeRaw(file->bytes, file->format);
-      file.reset();
-      clampNegatives(read.density, read.nx, read.ny, "the file", named, context, building);
-      return builtAt(named, context, [&] {
-        auto made = makeGridMedium(*p, place);
-        *p = {};
-        return made;
-      });
-    };
+    return planOfFile(input, std::move(p), emission, std::move(file));
   }
   if (!isInline) {
     tolerate(in,
@@ -140,7 +152,7 @@ std::optional<MediumPlan> readHeterogeneousMedium(const MediumInput& input) {
     return std::nullopt;
   }
   if (!takeDensity(in, expected, grid)) return std::nullopt;
-  return [p, emission, place](Textures&) {
+  return [p, emission, place = input.medium.ctm->start](Textures&) {
     if (emission) p->emissionPattern = emission(place);
     auto made = makeGridMedium(*p, place);
     *p = {};  // the input values are not needed any more

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "construct/emission.h"
+#include "construct/enum_parameter.h"
 #include "construct/freeflight.h"
 #include "construct/medium_bounds.h"
 #include "construct/phase.h"
@@ -35,8 +36,7 @@ void readMediumParams(ParamReader& in, const MediumDescription& medium, MediumPa
   p.phase = readPhase(in);
 
   constexpr std::array<std::string_view, 3> kRules = {"boundary", "add", "priority"};
-  p.overlap.mode = std::array{OverlapRule::Mode::Boundary, OverlapRule::Mode::Add,
-                              OverlapRule::Mode::Priority}[findOwnChoice(in, "overlap", kRules, 0)];
+  p.overlap.mode = findOwnEnum(in, "overlap", kRules, OverlapRule::Mode::Boundary);
   if (const std::optional<int> priority = in.optionalInt("priority")) {
     // A priority alone says which rule is meant.
     if (!in.has(ParamKind::String, "overlap")) p.overlap.mode = OverlapRule::Mode::Priority;
@@ -70,8 +70,7 @@ void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, Den
   const AnyLaw law = p.estimator ? lawOf(*p.estimator) : AnyLaw();
   requireExponentialLaw(in, p);
   p.sampler = readFreeFlight(in, law, walksPieces, p.sigmaS.max() > 0);
-  p.pattern = static_cast<PatternKind>(
-      findOwnChoice(in, "pattern", kPatternNames, static_cast<std::size_t>(p.pattern)));
+  p.pattern = findOwnEnum(in, "pattern", kPatternNames, p.pattern);
   if (const float sigmaT = (p.sigmaA + p.sigmaS).max();
       sigmaT > 0 && !std::isfinite(p.bounds.majorant / sigmaT)) {
     in.error(ParamKind::Float, "majorant", "divided by the largest sigma_t it is no finite density");

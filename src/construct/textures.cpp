@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "construct/enum_parameter.h"
 #include "construct/plugins.h"
 #include "construct/tolerance.h"
 #include "image/image.h"
@@ -151,8 +152,7 @@ Plan readCheckerboard(Texturable& in, const TextureDescription& d) {
     });
   }
   constexpr std::array<std::string_view, 2> kModes = {"closedform", "none"};
-  const auto filter = in.own().findChoice("aamode", kModes, 0) == 0 ? CheckerboardFilter::ClosedForm
-                                                                    : CheckerboardFilter::None;
+  const auto filter = findEnum(in.own(), "aamode", kModes, CheckerboardFilter::ClosedForm);
   const Mapping2d mapping = readMapping2d(in.own(), d.ctm->start);
   return planOf<T>([=](Textures& t) {
     return std::make_unique<Checkerboard2dTexture<T>>(mapping, resolve(t, tex1), resolve(t, tex2), filter);
@@ -210,8 +210,7 @@ Plan readImagemap(Texturable& in, const TextureDescription& d) {
   ImageTexelParams texels;
   texels.gamma = own.findBool("gamma", defaultGamma(name));
   texels.scale = own.findFloat("scale", texels.scale);
-  texels.wrap =
-      std::array{WrapMode::Repeat, WrapMode::Black, WrapMode::Clamp}[own.findChoice("wrap", kWraps, 0)];
+  texels.wrap = findEnum(own, "wrap", kWraps, WrapMode::Repeat);
   ImageFilterParams filter;
   filter.trilinear = own.findBool("trilinear", filter.trilinear);
   filter.maxAnisotropy = findFloatWithin(own, "maxanisotropy", filter.maxAnisotropy, Range::closed(1, 1024));

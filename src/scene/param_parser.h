@@ -28,6 +28,8 @@ class ParamParser {
   void parseOne(const InputFolders& folders, ParamList& list);
   /// Behind the declaration. False: the parameter is left out.
   bool parseValues(const InputFolders& folders, Values& v);
+  void checkFirstValue(const Token& first, const Values& v) const;
+  bool isOfType(const Token& first, Values& v);
   bool readNumbers(Values& v);
   bool settleInfinity(Values& v);
   template <class T, class Sink>

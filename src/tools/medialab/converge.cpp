@@ -45,12 +45,18 @@ std::string slopeNote(const std::string& estimator, const CanonicalFunction& fun
   return text + rounded(byLookups.error);
 }
 
-}  // namespace
+/// One estimator on one line, measured with more and more samples.
+struct Curve {
+  const LabEstimator& estimator;
+  const CanonicalFunction& function;
+  const ProblemChoice& choice;
+  double exact;  ///< transmittance
+  std::vector<Point> points{};
 
-LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
-  o.problem.check();
-  if (o.trials < 4) throw std::runtime_error("--trials: expected at least 4");
-  if (o.doublings < 1 || o.doublings > 24) throw std::runtime_error("--doublings: expected 1 to 24");
+  std::string name() const { return estimator.label() + " on " + function.about().name; }
+};
+
+LabTable emptyTable(const ConvergeOptions& o) {
   std::vector<std::string> columns{"estimator",     "extinction",
                                    "depth",         "control",
                                    "pattern",       "samples",
@@ -63,7 +69,65 @@ LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
     columns.insert(columns.end(), {"seconds", "slope_seconds", "slope_seconds_stderr"});
   }
   columns.emplace_back("non_finite");
-  LabTable table(o.lab.command, columns);
+  return {o.lab.command, columns};
+}
+
+/// Doubles the samples until the last, or until somebody stops it; calls `onPoint` after each.
+template <class OnPoint>
+void measure(Curve& curve, const LabProblem& problem, const ConvergeOptions& o, const StopSignal& stop,
+             const OnPoint& onPoint) {
+  const std::uint64_t seed =
+      rowSeed(o.lab.seed, curve.estimator.label(), curve.function.about().name, curve.choice);
+  for (unsigned d = 0; d <= o.doublings; ++d) {
+    const std::uint32_t samples = 1u << d;
+    const TrialStats stats =
+        runTrialsInParallel(curve.estimator, problem, {.samples = samples, .pattern = o.pattern},
+                            hashCombine(seed, d), o.trials, stop.flag());
+    if (stop) return;
+    curve.points.push_back(pointOf(samples, stats, curve.exact));
+    onPoint();
+  }
+}
+
+void addRows(LabTable& table, const Curve& curve, const ConvergeOptions& o) {
+  const auto over = [&](double (*abscissa)(const Point&)) { return slopeOver(curve.points, abscissa); };
+  const LogSlope bySamples = over([](const Point& p) { return static_cast<double>(p.samples); });
+  const LogSlope byLookups = over([](const Point& p) { return p.stats.lookupsPerTrial(); });
+  const LogSlope bySeconds = over([](const Point& p) { return p.stats.secondsPerTrial(); });
+  table.note(slopeNote(curve.estimator.label(), curve.function, curve.choice, bySamples, byLookups));
+  for (const Point& p : curve.points) {
+    const Moments& v = p.stats.value;
+    std::vector<LabTable::Cell> row{curve.estimator.label(),
+                                    curve.function.about().name,
+                                    curve.choice.depth,
+                                    curve.choice.control,
+                                    std::string(kPatternNames[static_cast<std::size_t>(o.pattern)]),
+                                    std::uint64_t{p.samples},
+                                    p.stats.trials(),
+                                    p.stats.lookupsPerTrial(),
+                                    p.rmse(),
+                                    p.rmseError(),
+                                    v.mean() - curve.exact,
+                                    v.meanError(),
+                                    bySamples.slope,
+                                    bySamples.error,
+                                    byLookups.slope,
+                                    byLookups.error};
+    if (!o.lab.omitSeconds) {
+      row.insert(row.end(), {p.stats.secondsPerTrial(), bySeconds.slope, bySeconds.error});
+    }
+    row.emplace_back(p.stats.nonFinite);
+    table.add(std::move(row));
+  }
+}
+
+}  // namespace
+
+LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
+  o.problem.check();
+  if (o.trials < 4) throw std::runtime_error("--trials: expected at least 4");
+  if (o.doublings < 1 || o.doublings > 24) throw std::runtime_error("--doublings: expected 1 to 24");
+  LabTable table = emptyTable(o);
   std::vector<LabTable::Skipped> skipped;
   const std::vector<LabEstimator> estimators = o.selection.select(skipped);
   for (const auto& s : skipped) table.skip(s.what, s.reason);
@@ -76,52 +140,14 @@ LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
     for (const CanonicalFunction& function : functions) {
       for (const ProblemChoice& choice : problemChoices(o.problem, function)) {
         const LabProblem problem = makeProblem(o.problem, function, choice);
+        Curve curve{estimator, function, choice, problem.transmittance(estimator.law())};
         if (const std::string why = whyNotApplicable(estimator, problem.line); !why.empty()) {
-          table.skip(estimator.label() + " on " + function.about().name, why);
+          table.skip(curve.name(), why);
           done += o.doublings + 1;
           continue;
         }
-        const double exact = problem.transmittance(estimator.law());
-        const std::uint64_t seed = rowSeed(o.lab.seed, estimator.label(), function.about().name, choice);
-        std::vector<Point> curve;
-        for (unsigned d = 0; d <= o.doublings; ++d) {
-          const std::uint32_t samples = 1u << d;
-          const TrialStats stats =
-              runTrialsInParallel(estimator, problem, {.samples = samples, .pattern = o.pattern},
-                                  hashCombine(seed, d), o.trials, stop.flag());
-          if (stop) break;
-          curve.push_back(pointOf(samples, stats, exact));
-          progress.update(++done, estimator.label() + " on " + function.about().name);
-        }
-        const LogSlope bySamples =
-            slopeOver(curve, [](const Point& p) { return static_cast<double>(p.samples); });
-        const LogSlope byLookups = slopeOver(curve, [](const Point& p) { return p.stats.lookupsPerTrial(); });
-        const LogSlope bySeconds = slopeOver(curve, [](const Point& p) { return p.stats.secondsPerTrial(); });
-        table.note(slopeNote(estimator.label(), function, choice, bySamples, byLookups));
-        for (const Point& p : curve) {
-          const Moments& v = p.stats.value;
-          std::vector<LabTable::Cell> row{estimator.label(),
-                                          function.about().name,
-                                          choice.depth,
-                                          choice.control,
-                                          std::string(kPatternNames[static_cast<std::size_t>(o.pattern)]),
-                                          std::uint64_t{p.samples},
-                                          p.stats.trials(),
-                                          p.stats.lookupsPerTrial(),
-                                          p.rmse(),
-                                          p.rmseError(),
-                                          v.mean() - exact,
-                                          v.meanError(),
-                                          bySamples.slope,
-                                          bySamples.error,
-                                          byLookups.slope,
-                                          byLookups.error};
-          if (!o.lab.omitSeconds) {
-            row.insert(row.end(), {p.stats.secondsPerTrial(), bySeconds.slope, bySeconds.error});
-          }
-          row.emplace_back(p.stats.nonFinite);
-          table.add(std::move(row));
-        }
+        measure(curve, problem, o, stop, [&] { progress.update(++done, curve.name()); });
+        addRows(table, curve, o);
         if (stop) {
           table.markStopped();
           return table;

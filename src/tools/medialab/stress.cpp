@@ -113,30 +113,24 @@ std::vector<LabTable::Cell> rowOf(const StressOptions& o, const Budget& budget, 
   return row;
 }
 
-}  // namespace
-
-LabTable stressTable(const StressOptions& o, const StopSignal& stop) {
+LabTable emptyTable(const StressOptions& o) {
   std::vector<std::string> columns{"estimator", "case",     "depth",       "control_depth", "trials",
                                    "finite",    "in_range", "mean",        "exact",         "z",
                                    "unbiased",  "lookups",  "most_lookups"};
   if (!o.lab.omitSeconds) columns.emplace_back("seconds");
   columns.insert(columns.end(), {"verdict", "reason"});
-  LabTable table(o.lab.command, columns);
-  std::vector<LabTable::Skipped> skipped;
-  const std::vector<LabEstimator> estimators = o.selection.select(skipped);
-  for (const auto& s : skipped) table.skip(s.what, s.reason);
-  const std::vector<StressCase> cases = selectCases(o);
-  const Budget& budget = o.isQuick ? kQuick : kFull;
-  std::vector<Cell> cells;
+  return {o.lab.command, columns};
+}
+
+/// Runs the cells that are not skipped, each in a process of its own. In their order.
+std::vector<IsolatedResult> runCells(const std::vector<Cell>& cells, const StressOptions& o,
+                                     const Budget& budget, const StopSignal& stop) {
   std::vector<std::function<TrialStats()>> jobs;
-  std::vector<std::size_t> cellOfJob;
-  for (const LabEstimator& estimator : estimators) {
-    for (const StressCase& one : cases) cells.push_back(cellOf(estimator, one, budget));
-  }
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!cells[i].whySkipped.empty()) continue;
-    cellOfJob.push_back(i);
-    jobs.emplace_back([&cell = cells[i], &budget, &o] {
+  std::vector<const Cell*> cellOfJob;
+  for (const Cell& cell : cells) {
+    if (!cell.whySkipped.empty()) continue;
+    cellOfJob.push_back(&cell);
+    jobs.emplace_back([&cell, &budget, &o] {
       const std::uint64_t seed =
           hashCombine(o.lab.seed, hashBytes(cell.estimator->label()), hashBytes(cell.one->name));
       return runTrials(*cell.estimator, cell.problem, {}, seed,
@@ -145,27 +139,45 @@ LabTable stressTable(const StressOptions& o, const StopSignal& stop) {
   }
   LabProgress progress("medialab stress", jobs.size(), o.lab.quiet);
   std::size_t done = 0;
-  const std::vector<IsolatedResult> results =
-      runIsolated(jobs, threadCount(), budget.seconds, stop.flag(), [&](std::size_t job) {
-        const Cell& cell = cells[cellOfJob[job]];
-        progress.update(++done, cell.estimator->label() + " on " + cell.one->name);
-      });
+  return runIsolated(jobs, threadCount(), budget.seconds, stop.flag(), [&](std::size_t job) {
+    const Cell& cell = *cellOfJob[job];
+    progress.update(++done, cell.estimator->label() + " on " + cell.one->name);
+  });
+}
+
+StressVerdict skippedVerdict(const std::string& reason) {
+  StressVerdict verdict;
+  verdict.kind = StressVerdict::Kind::Skipped;
+  verdict.reason = reason;
+  verdict.finite = verdict.inRange = verdict.unbiased = "-";
+  verdict.z = std::nan("");
+  return verdict;
+}
+
+}  // namespace
+
+LabTable stressTable(const StressOptions& o, const StopSignal& stop) {
+  LabTable table = emptyTable(o);
+  std::vector<LabTable::Skipped> skipped;
+  const std::vector<LabEstimator> estimators = o.selection.select(skipped);
+  for (const auto& s : skipped) table.skip(s.what, s.reason);
+  const std::vector<StressCase> cases = selectCases(o);
+  const Budget& budget = o.isQuick ? kQuick : kFull;
+  std::vector<Cell> cells;
+  for (const LabEstimator& estimator : estimators) {
+    for (const StressCase& one : cases) cells.push_back(cellOf(estimator, one, budget));
+  }
+  const std::vector<IsolatedResult> results = runCells(cells, o, budget, stop);
   std::map<std::string_view, std::size_t> counts;
-  for (std::size_t i = 0, job = 0; i < cells.size(); ++i) {
-    IsolatedResult result;
-    StressVerdict verdict;
-    if (cells[i].whySkipped.empty()) {
-      result = results[job++];
-      if (result.end == IsolatedResult::End::NotRun) continue;
-      verdict = judge(cells[i].estimator->traits(), cells[i].setting, result);
-    } else {
-      verdict.kind = StressVerdict::Kind::Skipped;
-      verdict.reason = cells[i].whySkipped;
-      verdict.finite = verdict.inRange = verdict.unbiased = "-";
-      verdict.z = std::nan("");
-    }
+  std::size_t job = 0;
+  for (const Cell& cell : cells) {
+    const bool isSkipped = !cell.whySkipped.empty();
+    const IsolatedResult result = isSkipped ? IsolatedResult{} : results[job++];
+    if (!isSkipped && result.end == IsolatedResult::End::NotRun) continue;
+    const StressVerdict verdict =
+        isSkipped ? skippedVerdict(cell.whySkipped) : judge(cell.estimator->traits(), cell.setting, result);
     ++counts[nameOf(verdict.kind)];
-    table.add(rowOf(o, budget, cells[i], result, verdict));
+    table.add(rowOf(o, budget, cell, result, verdict));
   }
   std::string summary = "verdicts:";
   for (const auto& [kind, count] : counts) {

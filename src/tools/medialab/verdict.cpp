@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/parameters.h"
 
@@ -37,12 +38,12 @@ bool isUnbiasedHere(const EstimatorTraits& t, const StressSetting& s) {
   return !s.isBlind && (s.isBounding || t.control == Control::Any);
 }
 
-struct MeanJudgement {
+struct Judgement {
   Kind kind;
   std::string reason;
 };
 
-MeanJudgement judgeMean(const EstimatorTraits& t, const StressSetting& s, const TrialStats& stats, double z) {
+Judgement judgeMean(const EstimatorTraits& t, const StressSetting& s, const TrialStats& stats, double z) {
   const Moments& v = stats.value;
   const double n = static_cast<double>(v.count());
   if (n < kFewTrials) return {Kind::Undecided, "too few trials within the budget"};
@@ -59,8 +60,8 @@ MeanJudgement judgeMean(const EstimatorTraits& t, const StressSetting& s, const 
   if (v.variance() == 0) {
     // An event of probability p is missed by n trials with probability exp(-n p).
     const bool isRare = std::abs(v.mean() - s.exact) * n < -kLogRare;
-    return isRare ? MeanJudgement{Kind::Undecided, "events too rare for these trials"}
-                  : MeanJudgement{Kind::Fail, "biased: all values are equal and wrong"};
+    return isRare ? Judgement{Kind::Undecided, "events too rare for these trials"}
+                  : Judgement{Kind::Fail, "biased: all values are equal and wrong"};
   }
   const double total = v.variance() * (n - 1);
   const double share = stats.largestDeviation * stats.largestDeviation / std::max(total, 1e-300);
@@ -81,6 +82,48 @@ double logChernoffBound(double mean, double expected, double n) {
   return std::log(2.0) - n * std::max(0.0, part(mean, expected) + part(1 - mean, 1 - expected));
 }
 
+namespace {
+
+/// What is wrong with how the trials ended, if anything is.
+std::optional<Judgement> judgeEnd(const EstimatorTraits& t, const StressSetting& s,
+                                  const IsolatedResult& result) {
+  switch (result.end) {
+    case End::NotRun:
+      return Judgement{Kind::Skipped, "stopped before"};
+    case End::Crashed:
+    case End::Threw:
+      return Judgement{Kind::Fail, result.message};
+    case End::OutOfTime:
+      if (t.control != Control::Unused && s.controlDepth > kCostlyControl) {
+        return Judgement{Kind::Expected, "out of time at a control of depth " + formatNumber(s.controlDepth)};
+      }
+      return Judgement{Kind::Fail, "hangs: out of processor time"};
+    case End::Done:
+      break;
+  }
+  return std::nullopt;
+}
+
+/// What is wrong with single values, if anything is.
+std::optional<Judgement> judgeValues(const EstimatorTraits& t, const StressSetting& s,
+                                     const TrialStats& stats, bool finiteVariance, StressVerdict& verdict) {
+  verdict.finite = stats.nonFinite == 0 ? "yes" : "no";
+  if (stats.nonFinite > 0) {
+    const std::string count = std::to_string(stats.nonFinite) + " values not finite";
+    if (!finiteVariance) return Judgement{Kind::Expected, count + "; the variance is infinite here"};
+    if (!s.isBounding) return Judgement{Kind::Expected, count + "; weights overflow under a low control"};
+    return Judgement{Kind::Fail, count};
+  }
+  const bool claimsRange = !t.mayLeaveUnitInterval && holdsHere(t, s);
+  const bool isInRange = stats.least >= -kRangeRounding && stats.most <= 1 + kRangeRounding;
+  verdict.inRange = isInRange ? "yes" : claimsRange ? "no" : "not claimed";
+  if (!claimsRange || isInRange) return std::nullopt;
+  return Judgement{Kind::Fail,
+                   "leaves [0, 1]: " + formatNumber(stats.least) + " to " + formatNumber(stats.most)};
+}
+
+}  // namespace
+
 StressVerdict judge(const EstimatorTraits& t, const StressSetting& s, const IsolatedResult& result) {
   StressVerdict verdict;
   verdict.finite = verdict.inRange = verdict.unbiased = "-";
@@ -90,36 +133,12 @@ StressVerdict judge(const EstimatorTraits& t, const StressSetting& s, const Isol
     verdict.reason = std::move(reason);
     return verdict;
   };
-  switch (result.end) {
-    case End::NotRun:
-      return conclude(Kind::Skipped, "stopped before");
-    case End::Crashed:
-    case End::Threw:
-      return conclude(Kind::Fail, result.message);
-    case End::OutOfTime:
-      if (t.control != Control::Unused && s.controlDepth > kCostlyControl) {
-        return conclude(Kind::Expected, "out of time at a control of depth " + formatNumber(s.controlDepth));
-      }
-      return conclude(Kind::Fail, "hangs: out of processor time");
-    case End::Done:
-      break;
-  }
+  if (const auto end = judgeEnd(t, s, result)) return conclude(end->kind, end->reason);
   const TrialStats& stats = result.stats;
   const Moments& v = stats.value;
   const bool finiteVariance = holdsHere(t, s) ? t.finiteVariance : t.finiteVarianceUnbounded;
-  verdict.finite = stats.nonFinite == 0 ? "yes" : "no";
-  if (stats.nonFinite > 0) {
-    const std::string count = std::to_string(stats.nonFinite) + " values not finite";
-    if (!finiteVariance) return conclude(Kind::Expected, count + "; the variance is infinite here");
-    if (!s.isBounding) return conclude(Kind::Expected, count + "; weights overflow under a low control");
-    return conclude(Kind::Fail, count);
-  }
-  const bool claimsRange = !t.mayLeaveUnitInterval && holdsHere(t, s);
-  const bool isInRange = stats.least >= -kRangeRounding && stats.most <= 1 + kRangeRounding;
-  verdict.inRange = isInRange ? "yes" : claimsRange ? "no" : "not claimed";
-  if (claimsRange && !isInRange) {
-    return conclude(Kind::Fail,
-                    "leaves [0, 1]: " + formatNumber(stats.least) + " to " + formatNumber(stats.most));
+  if (const auto values = judgeValues(t, s, stats, finiteVariance, verdict)) {
+    return conclude(values->kind, values->reason);
   }
   // A depth known to rounding only leaves T unknown by as much.
   const double rounding = s.exact * kRounding * (1 + s.depth) + 1e-300;
@@ -149,7 +168,7 @@ StressVerdict judge(const EstimatorTraits& t, const StressSetting& s, const Isol
                                         ? "infinite variance under this control: the mean cannot be judged"
                                         : "the variance may be infinite: the mean cannot be judged");
   }
-  const MeanJudgement mean = judgeMean(t, s, stats, verdict.z);
+  const Judgement mean = judgeMean(t, s, stats, verdict.z);
   verdict.unbiased = mean.kind == Kind::Pass ? "yes" : mean.kind == Kind::Fail ? "no" : "undecided";
   return conclude(mean.kind, mean.reason);
 }
