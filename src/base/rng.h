@@ -9,13 +9,6 @@
 
 namespace pbrtmedia {
 
-/// Which of the samples of a pixel an Rng serves: what sampling patterns across them need to know.
-struct PixelSample {
-  std::uint64_t key = 0;               ///< the same for all samples of the pixel
-  std::uint64_t index = 0, count = 0;  ///< index < count; count 0: nothing is known
-  std::uint64_t estimates = 0;         ///< taken so far by estimators that use a pattern
-};
-
 /// xoshiro256++ (Blackman & Vigna 2021, doi:10.1145/3460772): period 2^256 - 1, a handful of cycles a number.
 /// A value type: copy it to fork a replay. Not thread-safe; every (pixel, sample) owns one.
 class Rng {
@@ -36,7 +29,6 @@ class Rng {
     state_[3] = std::rotl(state_[3], 45);
     return result;
   }
-  PixelSample& pixelSample() { return pixelSample_; }
   /// Uniform in [0, 1): the multiples of 2^-24, so 1 is never reached.
   float uniform() { return static_cast<float>(next() >> 40) * 0x1p-24f; }
   /// Uniform in [0, 1): the multiples of 2^-53.
@@ -50,7 +42,6 @@ class Rng {
 
  private:
   std::uint64_t state_[4];
-  PixelSample pixelSample_;
 };
 
 }  // namespace pbrtmedia

@@ -12,43 +12,43 @@ namespace pbrtmedia {
 
 namespace {
 
-std::string samplersThatServe(const AnyLaw& law) {
-  std::vector<std::string_view> names = samplerNames();
-  std::erase_if(names, [&](std::string_view name) { return !traitsOf(*findSampler(name)).laws.has(law); });
+std::string flightsThatServe(const AnyLaw& law) {
+  std::vector<std::string_view> names = flightNames();
+  std::erase_if(names, [&](std::string_view name) { return !traitsOf(*findFlight(name)).laws.has(law); });
   return joinedNames(names);
 }
 
 }  // namespace
 
-AnySampler readFreeFlight(ParamReader& in, const AnyLaw& law, bool walksPieces, bool scatters) {
-  AnySampler sampler;
+AnyFlight readFreeFlight(ParamReader& in, const AnyLaw& law, bool walksPieces, bool scatters) {
+  AnyFlight flight;
   const std::optional<std::string> name = in.optionalString("freeflight");
-  if (std::optional<AnySampler> found = findSampler(name.value_or("auto"))) {
-    sampler = *std::move(found);
+  if (std::optional<AnyFlight> found = findFlight(name.value_or("auto"))) {
+    flight = *std::move(found);
   } else if (name && *name != "auto") {
-    std::vector<std::string_view> names = samplerNames();
+    std::vector<std::string_view> names = flightNames();
     names.push_back("auto");
     in.error(ParamKind::String, "freeflight",
              "unknown free-flight sampler \"" + *name + "\"" + suggestion(*name, names));
   }
-  if ((!name || *name == "auto") && walksPieces && scatters && !traitsOf(sampler).laws.has(law)) {
-    sampler = samplerOfAnyLaw();
+  if ((!name || *name == "auto") && walksPieces && scatters && !traitsOf(flight).laws.has(law)) {
+    flight = flightOfAnyLaw();
   }
-  readParameters(in, sampler);
-  const SamplerTraits traits = traitsOf(sampler);
+  readParameters(in, flight);
+  const FlightTraits traits = traitsOf(flight);
   if (scatters && !traits.laws.has(law)) {
     std::string text = "the free flights of \"";
-    text += nameOf(sampler);
+    text += nameOf(flight);
     text += "\" follow " + joinedNames(traits.laws.names()) + "; for a medium that scatters, the law \"";
     text += nameOf(law);
-    text += "\" is served by " + samplersThatServe(law);
+    text += "\" is served by " + flightsThatServe(law);
     in.error(ParamKind::String, name ? "freeflight" : "law", text);
   }
   std::string what = "free-flight sampler \"";
-  what += nameOf(sampler);
+  what += nameOf(flight);
   what += '"';
   warnOfBias(in, "freeflight", what, traits.bias, traits.biasNote);
-  return sampler;
+  return flight;
 }
 
 }  // namespace pbrtmedia

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include "freeflight/any_sampler.h"
+#include "freeflight/any_flight.h"
 #include "scene/param_reader.h"
 
 namespace pbrtmedia {
@@ -11,6 +11,6 @@ namespace pbrtmedia {
 /// any scene measured, and under a law that it does not serve regular tracking, if it `walksPieces`. Errors
 /// name the samplers or words that would have been right; a biased sampler is worth a warning. `scatters`:
 /// else no flight is flown and any sampler will do.
-AnySampler readFreeFlight(ParamReader& in, const AnyLaw& law, bool walksPieces, bool scatters);
+AnyFlight readFreeFlight(ParamReader& in, const AnyLaw& law, bool walksPieces, bool scatters);
 
 }  // namespace pbrtmedia

@@ -105,8 +105,8 @@ void checkPieces(ParamReader& in, const FieldMediumParams& p, bool inPieces) {
   };
   if (p.estimator && traitsOf(*p.estimator).needsPieces)
     refuse("transmittance", nameOf(*p.estimator), othersOf(estimatorNames(), findEstimator));
-  if (traitsOf(p.sampler).needsPieces)
-    refuse("freeflight", nameOf(p.sampler), othersOf(samplerNames(), findSampler));
+  if (traitsOf(p.flights).needsPieces)
+    refuse("freeflight", nameOf(p.flights), othersOf(flightNames(), findFlight));
 }
 
 }  // namespace pbrtmedia

@@ -69,7 +69,7 @@ void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, Den
   p.estimator = readTransmittance(in, walksPieces);
   const AnyLaw law = p.estimator ? lawOf(*p.estimator) : AnyLaw();
   requireExponentialLaw(in, p);
-  p.sampler = readFreeFlight(in, law, walksPieces, p.sigmaS.max() > 0);
+  p.flights = readFreeFlight(in, law, walksPieces, p.sigmaS.max() > 0);
   p.pattern = findOwnEnum(in, "pattern", kPatternNames, p.pattern);
   if (const float sigmaT = (p.sigmaA + p.sigmaS).max();
       sigmaT > 0 && !std::isfinite(p.bounds.majorant / sigmaT)) {

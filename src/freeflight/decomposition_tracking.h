@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <string_view>
 
-#include "base/rng.h"
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
+#include "freeflight/flight_traits.h"
 #include "freeflight/null_collisions.h"
-#include "freeflight/sampler_traits.h"
 #include "transmittance/parts/channel_shares.h"
+#include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
 
@@ -24,7 +24,7 @@ namespace pbrtmedia {
 struct DecompositionTracking {
   static constexpr std::string_view kName = "decomposition";
 
-  SamplerTraits traits() const {
+  FlightTraits traits() const {
     return {
         .summary =
             "collisions with a known lower bound of the density for free, the residual by null collisions",
@@ -34,13 +34,13 @@ struct DecompositionTracking {
   }
 
   template <DensityLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, SampleStream& stream) const {
     const double sigmaMax = maxOf(query.sigmaT);
     if (!(sigmaMax > 0)) return {.weight = query.importance};
     const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
     const auto rateOf = [](const auto& bound) { return static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
-        line, query, rng, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
+        line, query, stream, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
           const double upper = bound.upper, lower = std::min(static_cast<double>(bound.lower), upper);
           Channels<N>& weight = flight.weight;
           // The share of the control, before the density is known: real in proportion to what it weighs.
@@ -50,13 +50,13 @@ struct DecompositionTracking {
             control += std::abs(weight[c]) * share[c];
           }
           const double known = all > 0 ? control / all * (lower / upper) : 0;
-          if (known > 0 && rng.uniformDouble() < known) {
+          if (known > 0 && stream.uniform() < known) {
             for (std::size_t c = 0; c < N; ++c) weight[c] *= share[c] * lower / (upper * known);
             return Collision::Real;
           }
           const double density = lookUpAt(line, s, bound, flight);
           for (double& w : weight) w /= 1 - known;
-          return chooseEvent(rng.uniformDouble(), density, upper, lower, share, weight);
+          return chooseEvent(stream.uniform(), density, upper, lower, share, weight);
         });
   }
 };

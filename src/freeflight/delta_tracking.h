@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <string_view>
 
-#include "base/rng.h"
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
+#include "freeflight/flight_traits.h"
 #include "freeflight/null_collisions.h"
-#include "freeflight/sampler_traits.h"
 #include "transmittance/parts/channel_shares.h"
+#include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
 
@@ -23,7 +23,7 @@ namespace pbrtmedia {
 struct DeltaTracking {
   static constexpr std::string_view kName = "delta";
 
-  SamplerTraits traits() const {
+  FlightTraits traits() const {
     return {
         .summary = "tentative collisions at the rate of the bound, each real in proportion to the density",
         .source = "Woodcock et al. 1965; Kutz et al. 2017",
@@ -33,14 +33,14 @@ struct DeltaTracking {
   }
 
   template <DensityLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, SampleStream& stream) const {
     const double sigmaMax = maxOf(query.sigmaT);
     if (!(sigmaMax > 0)) return {.weight = query.importance};
     const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
     const auto rateOf = [](const auto& bound) { return static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
-        line, query, rng, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
-          const double upper = bound.upper, u = rng.uniformDouble();
+        line, query, stream, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
+          const double upper = bound.upper, u = stream.uniform();
           if constexpr (N == 1) {
             if (line.hasProvenBounds() && u * upper < static_cast<double>(bound.lower))
               return Collision::Real;

@@ -15,7 +15,7 @@ struct FlightQuery {
   Channels<N> sigmaT;                     ///< extinction at density 1, 1/world length, >= 0
   Channels<N> albedo = filled<N>(1);      ///< in [0, 1]
   Channels<N> importance = filled<N>(1);  ///< what each channel counts (importanceOf), mean 1
-  const AnyLaw* law = nullptr;            ///< SamplerTraits::laws; null: the exponential one
+  const AnyLaw* law = nullptr;            ///< FlightTraits::laws; null: the exponential one
 };
 
 /// How much the channels of a path count when chances are shared out among them: the magnitudes of its

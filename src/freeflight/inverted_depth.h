@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <limits>
 
-#include "base/rng.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
+#include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
 
@@ -20,10 +20,10 @@ template <std::size_t N>
 class InvertedDepth {
  public:
   /// sigmaT: some channel > 0. A channel is chosen in proportion to its importance.
-  InvertedDepth(const FlightQuery<N>& query, Rng& rng)
+  InvertedDepth(const FlightQuery<N>& query, SampleStream& stream)
       : sigmaT_(query.sigmaT), importance_(query.importance), law_(query.law) {
-    const std::size_t channel = N == 1 ? 0 : chooseChannel(importance_, rng.uniformDouble());
-    const double depth = law_ ? depthReachedOf(*law_, 1 - rng.uniformDouble()) : rng.exponential();
+    const std::size_t channel = N == 1 ? 0 : chooseChannel(importance_, stream.uniform());
+    const double depth = law_ ? depthReachedOf(*law_, 1 - stream.uniform()) : stream.exponential();
     column_ = sigmaT_[channel] > 0 ? depth / sigmaT_[channel] : std::numeric_limits<double>::infinity();
   }
 

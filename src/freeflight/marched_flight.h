@@ -9,12 +9,12 @@
 #include <tuple>
 
 #include "base/parameters.h"
-#include "base/rng.h"
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
+#include "freeflight/flight_traits.h"
 #include "freeflight/inverted_depth.h"
-#include "freeflight/sampler_traits.h"
+#include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
 
@@ -39,7 +39,7 @@ struct MarchedFlight {
                   1e30},
         Parameter{"flightsteps", &Self::steps, "steps of a line when flightstepsize is 0", 1, 0x1p24}};
   }
-  SamplerTraits traits() const {
+  FlightTraits traits() const {
     return {
         .summary = "the optical depth by the midpoint rule, inverted where the flight ends",
         .source = "Perlin & Hoffert 1989",
@@ -52,11 +52,11 @@ struct MarchedFlight {
   }
 
   template <DensityLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, SampleStream& stream) const {
     FlightSample<N> flight{.weight = query.importance};
     const double length = line.length();
     if (!(maxOf(query.sigmaT) > 0) || !(length > 0)) return flight;
-    const InvertedDepth<N> inverted(query, rng);
+    const InvertedDepth<N> inverted(query, stream);
     const double step =
         stepSize > 0 ? std::max(stepSize, length * kShortest) : length / static_cast<double>(steps);
     double column = 0;

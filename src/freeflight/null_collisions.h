@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include "base/rng.h"
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 #include "transmittance/parts/bounded_lookup.h"
 #include "transmittance/parts/channel_shares.h"
+#include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
 
@@ -20,15 +20,15 @@ enum class Collision { Null, Real, Absorbed };
 /// the largest channel's sigma_t, piecewise constant; `decide(s, bound, flight)` says what each is and
 /// updates the weights. Absorbed: the path ends there with weight 0.
 template <DensityLine Line, std::size_t N, class RateOf, class Decide>
-FlightSample<N> flyWithNullCollisions(const Line& line, const FlightQuery<N>& query, Rng& rng,
+FlightSample<N> flyWithNullCollisions(const Line& line, const FlightQuery<N>& query, SampleStream& stream,
                                       const RateOf& rateOf, const Decide& decide) {
   FlightSample<N> flight{.weight = query.importance};
   const double sigmaMax = maxOf(query.sigmaT);
   if (!(sigmaMax > 0)) return flight;
-  double depth = rng.exponential();  // optical depth of the majorant to the next tentative collision
+  double depth = stream.exponential();  // optical depth of the majorant to the next tentative collision
   line.walk([&](double sEnter, double sExit, const auto& bound) {
     if (!(bound.upper > 0)) {
-      probeTrusted(line, sEnter, sExit, 0, rng, flight.tally);
+      probeTrusted(line, sEnter, sExit, 0, stream.rng(), flight.tally);
       return true;
     }
     const double rate = sigmaMax * rateOf(bound), inverse = 1 / rate;
@@ -47,7 +47,7 @@ FlightSample<N> flyWithNullCollisions(const Line& line, const FlightQuery<N>& qu
         return false;
       }
       ++flight.tally.nullCollisions;
-      depth = rng.exponential();
+      depth = stream.exponential();
     }
   });
   return flight;

@@ -6,12 +6,12 @@
 #include <cstddef>
 #include <string_view>
 
-#include "base/rng.h"
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
+#include "freeflight/flight_traits.h"
 #include "freeflight/inverted_depth.h"
-#include "freeflight/sampler_traits.h"
+#include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
 
@@ -24,7 +24,7 @@ namespace pbrtmedia {
 struct RegularFlight {
   static constexpr std::string_view kName = "regular";
 
-  SamplerTraits traits() const {
+  FlightTraits traits() const {
     return {
         .summary = "the exact optical depth, piece by piece, inverted where the flight ends",
         .source = "Amanatides & Woo 1987 for the walk; Gauss-Legendre and Newton's method for the inversion",
@@ -36,10 +36,10 @@ struct RegularFlight {
   }
 
   template <PiecewiseCubicLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, SampleStream& stream) const {
     FlightSample<N> flight{.weight = query.importance};
     if (!(maxOf(query.sigmaT) > 0)) return flight;
-    const InvertedDepth<N> inverted(query, rng);
+    const InvertedDepth<N> inverted(query, stream);
     double column = 0;
     line.walkPieces([&](double a, double b) {
       constexpr double kGauss = 0.57735026918962576451;  // 1/sqrt(3)

@@ -8,13 +8,13 @@
 #include <tuple>
 
 #include "base/parameters.h"
-#include "base/rng.h"
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
+#include "freeflight/flight_traits.h"
 #include "freeflight/null_collisions.h"
-#include "freeflight/sampler_traits.h"
 #include "transmittance/parts/channel_shares.h"
+#include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
 
@@ -51,7 +51,7 @@ struct SingleParticleTracking {
                   "look-ups, weights that may be negative",
                   0.01, 100}};
   }
-  SamplerTraits traits() const {
+  FlightTraits traits() const {
     return {.summary =
                 "tentative collisions at any rate; the particle scatters, transmits or is absorbed, weighted",
             .source = "Szirmay-Kalos et al. 2017, section 4",
@@ -60,13 +60,13 @@ struct SingleParticleTracking {
   }
 
   template <DensityLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, SampleStream& stream) const {
     const double sigmaMax = maxOf(query.sigmaT);
     if (!(sigmaMax > 0)) return {.weight = query.importance};
     const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
     const auto rateOf = [&](const auto& bound) { return boundScale * static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
-        line, query, rng, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
+        line, query, stream, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
           const double density = lookUpAt(line, s, bound, flight), sampling = rateOf(bound);
           Channels<N>& weight = flight.weight;
           Channels<N> r;
@@ -84,7 +84,7 @@ struct SingleParticleTracking {
           const bool terminates = model != ParticleModel::NonTerminating && sum <= all &&
                                   (model == ParticleModel::Terminating || ratio >= all);
           const double whole = terminates ? all : sum;
-          const double u = rng.uniformDouble() * whole;
+          const double u = stream.uniform() * whole;
           if (u < scatter) {
             for (std::size_t c = 0; c < N; ++c) weight[c] *= r[c] * whole / scatter;
             return Collision::Real;

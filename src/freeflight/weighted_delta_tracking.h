@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <string_view>
 
-#include "base/rng.h"
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
+#include "freeflight/flight_traits.h"
 #include "freeflight/null_collisions.h"
-#include "freeflight/sampler_traits.h"
 #include "transmittance/parts/channel_shares.h"
+#include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
 
@@ -31,7 +31,7 @@ namespace pbrtmedia {
 struct WeightedDeltaTracking {
   static constexpr std::string_view kName = "weighted-delta";
 
-  SamplerTraits traits() const {
+  FlightTraits traits() const {
     return {
         .summary =
             "tentative collisions at the rate of the bound; null extinction may be negative, with weights",
@@ -41,17 +41,17 @@ struct WeightedDeltaTracking {
   }
 
   template <DensityLine Line, std::size_t N>
-  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, Rng& rng) const {
+  FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, SampleStream& stream) const {
     const double sigmaMax = maxOf(query.sigmaT);
     if (!(sigmaMax > 0)) return {.weight = query.importance};
     const Channels<N> share = sharesOf(query.sigmaT, sigmaMax);
     const auto rateOf = [](const auto& bound) { return static_cast<double>(bound.upper); };
     return flyWithNullCollisions<Line, N>(
-        line, query, rng, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
+        line, query, stream, rateOf, [&](double s, const auto& bound, FlightSample<N>& flight) {
           // A collision that is real for certain needs proof.
           const double upper = bound.upper;
           const double lower = line.hasProvenBounds() ? static_cast<double>(bound.lower) : 0;
-          const double u = rng.uniformDouble();
+          const double u = stream.uniform();
           if constexpr (N == 1) {
             if (u * upper < lower) return Collision::Real;
           }

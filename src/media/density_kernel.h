@@ -5,12 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "base/rng.h"
 #include "base/transform.h"
 #include "fields/clipped_line.h"
 #include "fields/closer_bounds.h"
 #include "fields/field_bounds.h"
-#include "freeflight/any_sampler.h"
+#include "freeflight/any_flight.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
 #include "transmittance/any_estimator.h"
@@ -42,10 +41,10 @@ class DensityKernel {
                                const AnyEstimator& estimator, SampleStream& stream) const = 0;
   virtual Estimate<3> estimate(const ClippedLine& line, const Channels<3>& sigmaT,
                                const AnyEstimator& estimator, SampleStream& stream) const = 0;
-  virtual FlightSample<1> fly(const ClippedLine& line, const FlightQuery<1>& query, const AnySampler& sampler,
-                              Rng& rng) const = 0;
-  virtual FlightSample<3> fly(const ClippedLine& line, const FlightQuery<3>& query, const AnySampler& sampler,
-                              Rng& rng) const = 0;
+  virtual FlightSample<1> fly(const ClippedLine& line, const FlightQuery<1>& query, const AnyFlight& flights,
+                              SampleStream& stream) const = 0;
+  virtual FlightSample<3> fly(const ClippedLine& line, const FlightQuery<3>& query, const AnyFlight& flights,
+                              SampleStream& stream) const = 0;
 
   // One look-up each, which the caller counts.
   virtual float density(const ClippedLine& line, double s) const = 0;

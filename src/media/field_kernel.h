@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "fields/field_line.h"
-#include "freeflight/sampler_list.h"
+#include "freeflight/flight_list.h"
 #include "media/density_kernel.h"
 #include "transmittance/estimate_on.h"
 #include "transmittance/estimator_list.h"
 
 namespace pbrtmedia {
 
-/// The kernel of one kind of field. Holds every estimator and sampler for one and three channels, so each
-/// kind is compiled in one source file.
+/// The kernel of one kind of field. Holds every estimator and free-flight sampler for one and three channels,
+/// so each kind is compiled in one source file.
 template <class Field>
 class FieldKernel final : public DensityKernel {
  public:
@@ -30,13 +30,13 @@ class FieldKernel final : public DensityKernel {
                        SampleStream& stream) const override {
     return estimateBy(line, sigmaT, estimator, stream);
   }
-  FlightSample<1> fly(const ClippedLine& line, const FlightQuery<1>& query, const AnySampler& sampler,
-                      Rng& rng) const override {
-    return flyBy(line, query, sampler, rng);
+  FlightSample<1> fly(const ClippedLine& line, const FlightQuery<1>& query, const AnyFlight& flights,
+                      SampleStream& stream) const override {
+    return flyBy(line, query, flights, stream);
   }
-  FlightSample<3> fly(const ClippedLine& line, const FlightQuery<3>& query, const AnySampler& sampler,
-                      Rng& rng) const override {
-    return flyBy(line, query, sampler, rng);
+  FlightSample<3> fly(const ClippedLine& line, const FlightQuery<3>& query, const AnyFlight& flights,
+                      SampleStream& stream) const override {
+    return flyBy(line, query, flights, stream);
   }
 
   float density(const ClippedLine& line, double s) const override { return on(line).density(s); }
@@ -78,10 +78,10 @@ class FieldKernel final : public DensityKernel {
         [&, on = on(line)](const auto& estimator) { return estimateOn(estimator, on, sigmaT, stream); }, any);
   }
   template <std::size_t N>
-  FlightSample<N> flyBy(const ClippedLine& line, const FlightQuery<N>& query, const AnySampler& any,
-                        Rng& rng) const {
-    return visitSampler(
-        [&, on = on(line)](const auto& sampler) { return pbrtmedia::flyOn(sampler, on, query, rng); }, any);
+  FlightSample<N> flyBy(const ClippedLine& line, const FlightQuery<N>& query, const AnyFlight& any,
+                        SampleStream& stream) const {
+    return visitFlight([&, on = on(line)](const auto& flights) { return flyOn(flights, on, query, stream); },
+                       any);
   }
 
   Field field_;

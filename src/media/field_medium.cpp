@@ -58,7 +58,7 @@ FieldMedium::FieldMedium(const FieldMediumParams& params, std::string_view typeN
       sigmaS_(params.sigmaS),
       sigmaT_(params.sigmaA + params.sigmaS),
       isAuto_(!params.estimator),
-      sampler_(params.sampler),
+      flights_(params.flights),
       samplingPattern_(params.pattern),
       phase_(makePhaseFunction(params.phase)),
       emission_(params.sigmaA * params.le, sigmaT_, params.emissionPattern, *kernel_) {
@@ -72,10 +72,10 @@ FieldMedium::FieldMedium(const FieldMediumParams& params, std::string_view typeN
                                                    .batchedLookups = kernel_->hasBatches()});
   law_ = lawOf(estimator_);
   isExponential_ = std::holds_alternative<ExponentialLaw>(law_);
-  if (!traitsOf(sampler_).laws.has(law_) && !sigmaS_.isBlack()) {
-    throw SceneError(SourceLocation{}, "free flights of this sampler follow the exponential law only");
+  if (!traitsOf(flights_).laws.has(law_) && !sigmaS_.isBlack()) {
+    throw SceneError(SourceLocation{}, "these free flights follow the exponential law only");
   }
-  if (!kernel_->hasPieces() && (traitsOf(estimator_).needsPieces || traitsOf(sampler_).needsPieces)) {
+  if (!kernel_->hasPieces() && (traitsOf(estimator_).needsPieces || traitsOf(flights_).needsPieces)) {
     throw SceneError(SourceLocation{},
                      "regular tracking goes from voxel to voxel, but this density has none");
   }
@@ -90,31 +90,31 @@ double FieldMedium::densestScattering() const {
   return double{trackedSigmaT().max()} * double{kernel_->superVoxels().maximum()};
 }
 
-Rgb FieldMedium::transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const {
+Rgb FieldMedium::transmittance(const Segment& segment, PixelStream random, RenderCounters& counters) const {
   if (hasNaN(segment)) return kNaN;
   const auto line = lineOf(segment);
   if (!line) return Rgb(1.0f);
-  explore(*line, rng, counters);
-  return dimmed(*line, segment, rng, counters);
+  explore(*line, random, counters);
+  return dimmed(*line, segment, random, counters);
 }
 
-FreeFlight FieldMedium::sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
+FreeFlight FieldMedium::sampleFreeFlight(const Segment& segment, Rgb throughput, PixelStream random,
                                          RenderCounters& counters) const {
   if (hasNaN(segment)) return {.weight = kNaN};
   const auto line = lineOf(segment);
   if (!line) return {};
-  explore(*line, rng, counters);
+  explore(*line, random, counters);
   // What only absorbs dims: its collisions would end paths and nothing else.
-  if (sigmaS_.isBlack()) return {false, 0, dimmed(*line, segment, rng, counters)};
+  if (sigmaS_.isBlack()) return {false, 0, dimmed(*line, segment, random, counters)};
   const AnyLaw* const law = isExponential_ ? nullptr : &law_;
   const Rgb sigmaT = trackedSigmaT();
   FreeFlight flight =
       sigmaT.isGrey()
-          ? flyOn(*line, segment, FlightQuery<1>{{sigmaT.r}, {albedo_.average()}, {1}, law}, rng, counters)
+          ? flyOn(*line, segment, FlightQuery<1>{{sigmaT.r}, {albedo_.average()}, {1}, law}, random, counters)
           : flyOn(*line, segment,
                   FlightQuery<3>{channelsOf(sigmaT), channelsOf(albedo_),
                                  importanceOf(channelsOf(throughput)), law},
-                  rng, counters);
+                  random, counters);
   if (!flight.collided) return flight;
   flight.t = std::clamp(flight.t, segment.tMin, segment.tMax);
   flight.weight *= albedo_;
@@ -144,12 +144,12 @@ FlightControl FieldMedium::flightControl(const Segment& segment) const {
   return {sigmaT_ * static_cast<float>(depth), sigmaT_ * static_cast<float>(rate)};
 }
 
-EmissionSamples FieldMedium::sampleEmission(const Segment& segment, Rng& rng,
+EmissionSamples FieldMedium::sampleEmission(const Segment& segment, PixelStream random,
                                             RenderCounters& counters) const {
   EmissionSamples samples;
   const auto line = emissionLine(segment);
   if (!line) return samples;
-  EmissionSampler sampler(EmissionSampler::kDefensiveShare, rng);
+  EmissionSampler sampler(EmissionSampler::kDefensiveShare, random.rng());
   // Under another law a collision is not extinction times transmittance.
   const bool flies = emission_.addTo(sampler, *line, isExponential_);
   if (const auto distance = sampler.distance()) {
@@ -158,25 +158,25 @@ EmissionSamples FieldMedium::sampleEmission(const Segment& segment, Rng& rng,
     const Rgb emission = emission_.at(pointOf(segment, t), kernel_->density(*line, distance->s));
     const double weight = distance->tag / distance->pdf;
     if (!emission.isBlack()) {
-      const Rgb through = transmittance({segment.o, segment.d, segment.tMin, t}, rng, counters);
+      const Rgb through = transmittance({segment.o, segment.d, segment.tMin, t}, random, counters);
       samples.add(t, through * emission * static_cast<float>(weight));
     }
   }
-  if (flies) flyToEmission(samples, *line, segment, rng, counters);
+  if (flies) flyToEmission(samples, *line, segment, random, counters);
   return samples;
 }
 
 void FieldMedium::flyToEmission(EmissionSamples& samples, const ClippedLine& emissionLine,
-                                const Segment& segment, Rng& rng, RenderCounters& counters) const {
+                                const Segment& segment, PixelStream random, RenderCounters& counters) const {
   const auto line = kernel_->clip(segment);
   if (!line) return;
   const Rgb sigmaT = trackedSigmaT();
   const FreeFlight flight =
-      sigmaT.isGrey() ? flyOn(*line, segment, FlightQuery<1>{.sigmaT = {sigmaT.r}}, rng, counters)
+      sigmaT.isGrey() ? flyOn(*line, segment, FlightQuery<1>{.sigmaT = {sigmaT.r}}, random, counters)
                       : flyOn(*line, segment,
                               FlightQuery<3>{.sigmaT = channelsOf(sigmaT),
                                              .importance = importanceOf(channelsOf(emission_.sourceOf()))},
-                              rng, counters);
+                              random, counters);
   if (!flight.collided) return;
   const double t = std::clamp(flight.t, segment.tMin, segment.tMax);
   const double share = emission_.flightShareAt(emissionLine, flight.t - emissionLine.tEntry());
@@ -241,7 +241,7 @@ std::string FieldMedium::describe() const {
   if (!isExponential_) text << " (law " << nameOf(law_) << ')';
   if (samplingPattern_ != PatternKind::Independent)
     text << " (pattern " << kPatternNames[static_cast<std::size_t>(samplingPattern_)] << ')';
-  text << ", sampler " << nameOf(sampler_) << ", " << (sigmaT_.isGrey() ? "1 channel" : "3 channels")
+  text << ", free flights " << nameOf(flights_) << ", " << (sigmaT_.isGrey() ? "1 channel" : "3 channels")
        << emission_.describe() << ", " << kernel_->bytes() + emission_.bytes() << " bytes";
   return text.str();
 }
@@ -260,13 +260,13 @@ std::optional<ClippedLine> FieldMedium::emissionLine(const Segment& segment) con
   return ClippedLine::clip(kernel_->localFromWorld(), emission_.cells(kernel_->superVoxels()), segment);
 }
 
-Rgb FieldMedium::dimmed(const ClippedLine& line, const Segment& segment, Rng& rng,
+Rgb FieldMedium::dimmed(const ClippedLine& line, const Segment& segment, PixelStream random,
                         RenderCounters& counters) const {
   if (line.isRefined() && isExponential_) [[unlikely]]
-    return dimmedOrOpaque(line, segment, rng, counters);
+    return dimmedOrOpaque(line, segment, random, counters);
   const Rgb sigmaT = trackedSigmaT();
-  return sigmaT.isGrey() ? estimate(line, segment, Channels<1>{sigmaT.r}, rng, counters)
-                         : estimate(line, segment, channelsOf(sigmaT), rng, counters);
+  return sigmaT.isGrey() ? estimate(line, segment, Channels<1>{sigmaT.r}, random, counters)
+                         : estimate(line, segment, channelsOf(sigmaT), random, counters);
 }
 
 double FieldMedium::trackedShare() const {
@@ -275,7 +275,7 @@ double FieldMedium::trackedShare() const {
   return depth > kMostDepth ? kMostDepth / depth : 1;
 }
 
-Rgb FieldMedium::dimmedOrOpaque(const ClippedLine& line, const Segment& segment, Rng& rng,
+Rgb FieldMedium::dimmedOrOpaque(const ClippedLine& line, const Segment& segment, PixelStream random,
                                 RenderCounters& counters) const {
   constexpr double kOpaque = 746;  // exp of less is 0
   double column = 0;
@@ -286,7 +286,7 @@ Rgb FieldMedium::dimmedOrOpaque(const ClippedLine& line, const Segment& segment,
   kernel_->walk(line, AnyVisit(add));
   Channels<3> clear = channelsOf(sigmaT_);
   for (double& sigma : clear) sigma = sigma * column >= kOpaque ? 0 : sigma;
-  const Rgb through = clear == Channels<3>{} ? Rgb(1.0f) : estimate(line, segment, clear, rng, counters);
+  const Rgb through = clear == Channels<3>{} ? Rgb(1.0f) : estimate(line, segment, clear, random, counters);
   Rgb result;
   for (std::size_t c = 0; c < 3; ++c) result[c] = sigmaT_[c] * column >= kOpaque ? 0 : through[c];
   return result;
@@ -294,17 +294,17 @@ Rgb FieldMedium::dimmedOrOpaque(const ClippedLine& line, const Segment& segment,
 
 template <std::size_t N>
 Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT,
-                          Rng& rng, RenderCounters& counters) const {
-  if (PixelSample& pixel = rng.pixelSample(); samplingPattern_ != PatternKind::Independent &&
-                                              pixel.index < pixel.count &&
-                                              pixel.count <= std::numeric_limits<std::uint32_t>::max()) {
+                          PixelStream random, RenderCounters& counters) const {
+  if (PixelSample* const pixel = random.sample();
+      pixel != nullptr && samplingPattern_ != PatternKind::Independent && pixel->index < pixel->count &&
+      pixel->count <= std::numeric_limits<std::uint32_t>::max()) {
     // The n-th estimates of all samples of a pixel share a pattern.
-    const SamplingPattern pattern(samplingPattern_, static_cast<std::uint32_t>(pixel.count),
-                                  hashCombine(pixel.key, pixel.estimates++));
-    SampleStream stream(rng, pattern, static_cast<std::uint32_t>(pixel.index));
+    const SamplingPattern pattern(samplingPattern_, static_cast<std::uint32_t>(pixel->count),
+                                  hashCombine(pixel->key, pixel->estimates++));
+    SampleStream stream(random.rng(), pattern, static_cast<std::uint32_t>(pixel->index));
     return estimate(line, segment, sigmaT, stream, counters);
   }
-  SampleStream stream(rng);
+  SampleStream stream(random.rng());
   return estimate(line, segment, sigmaT, stream, counters);
 }
 
@@ -318,18 +318,19 @@ Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const
 
 template <std::size_t N>
 FreeFlight FieldMedium::flyOn(const ClippedLine& line, const Segment& segment, const FlightQuery<N>& query,
-                              Rng& rng, RenderCounters& counters) const {
-  const FlightSample<N> result = kernel_->fly(line, query, sampler_, rng);
+                              PixelStream random, RenderCounters& counters) const {
+  SampleStream stream(random.rng());
+  const FlightSample<N> result = kernel_->fly(line, query, flights_, stream);
   count(line, segment, result.tally, counters);
   const Rgb weight = toRgb(result.weight);
   if (!result.collided) return {false, 0, weight};
   return {true, line.tEntry() + result.s, weight};
 }
 
-void FieldMedium::explore(const ClippedLine& line, Rng& rng, RenderCounters& counters) const {
+void FieldMedium::explore(const ClippedLine& line, PixelStream random, RenderCounters& counters) const {
   const LearnedBounds* const learned = kernel_->bounds().learned();
   if (learned == nullptr || !learned->isExploring()) return;
-  const Vec3d p = line.pointAt(line.length() * rng.uniformDouble());
+  const Vec3d p = line.pointAt(line.length() * random.rng().uniformDouble());
   learned->probe(p, kernel_->uncutDensity(p), static_cast<double>(sigmaT_.max()) * line.length());
   ++counters.densityLookups;
 }

@@ -25,14 +25,15 @@ class FieldMedium final : public Medium {
               std::unique_ptr<const DensityKernel> kernel);
 
   /// A segment with a NaN gives NaN, so that the sample is dropped and counted where such are.
-  Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
-  FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
+  Rgb transmittance(const Segment& segment, PixelStream random, RenderCounters& counters) const override;
+  FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, PixelStream random,
                               RenderCounters& counters) const override;
   MediumPoint at(Point3f p, RenderCounters& counters) const override;
   /// From the control densities of the super-voxels.
   FlightControl flightControl(const Segment& segment) const override;
   /// One point by a profile of what emits, one by a free flight: FieldEmission::flightShare.
-  EmissionSamples sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
+  EmissionSamples sampleEmission(const Segment& segment, PixelStream random,
+                                 RenderCounters& counters) const override;
   std::unique_ptr<const EmissionVolume> emissionVolume(const Bounds3f& boundary) const override;
   /// The occupied super-voxels in world space, rounded outward. Empty when the density is 0 everywhere.
   Bounds3f bounds() const override;
@@ -43,7 +44,7 @@ class FieldMedium final : public Medium {
   Rgb sigmaT() const override { return sigmaT_; }
   double densestScattering() const override;
   bool isEmissive() const override { return emission_.isEmissive(); }
-  /// Under proven bounds every sampler's weights are positive.
+  /// Under proven bounds every flight's weights are positive.
   bool mayBeNegative() const override;
 
   LearnedBounds* learnedBounds() override { return kernel_->bounds().learned(); }
@@ -54,12 +55,12 @@ class FieldMedium final : public Medium {
   std::string describe() const override;
 
  private:
-  /// The line of a segment for estimators and samplers. Under an extinction so large that the bounds of cells
+  /// The line of a segment for estimators and flights. Under an extinction so large that the bounds of cells
   /// would cost millions of null collisions it tells closer ones.
   std::optional<ClippedLine> lineOf(const Segment& segment) const;
   std::optional<ClippedLine> emissionLine(const Segment& segment) const;
 
-  /// The extinction that estimators and samplers see, and its share of the true one. Unproven bounds cannot
+  /// The extinction that estimators and flights see, and its share of the true one. Unproven bounds cannot
   /// be made closer: where they would cost more null collisions across the medium than anybody waits for, it
   /// is as thin as that allows. Laws other than the exponential never get opaque, and keep what they were
   /// given.
@@ -72,16 +73,17 @@ class FieldMedium final : public Medium {
   /// The emission that free flights find. What a collision stands for is emission over extinction, of which
   /// the density is no part.
   void flyToEmission(EmissionSamples& samples, const ClippedLine& emissionLine, const Segment& segment,
-                     Rng& rng, RenderCounters& counters) const;
+                     PixelStream random, RenderCounters& counters) const;
 
   /// The transmittance of a segment.
-  Rgb dimmed(const ClippedLine& line, const Segment& segment, Rng& rng, RenderCounters& counters) const;
+  Rgb dimmed(const ClippedLine& line, const Segment& segment, PixelStream random,
+             RenderCounters& counters) const;
   /// The same where some channels may be opaque: lower bounds alone leave nothing of them that a double could
   /// tell from 0. Not every estimator ends on such lines.
-  Rgb dimmedOrOpaque(const ClippedLine& line, const Segment& segment, Rng& rng,
+  Rgb dimmedOrOpaque(const ClippedLine& line, const Segment& segment, PixelStream random,
                      RenderCounters& counters) const;
   template <std::size_t N>
-  Rgb estimate(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT, Rng& rng,
+  Rgb estimate(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT, PixelStream random,
                RenderCounters& counters) const;
   template <std::size_t N>
   Rgb estimate(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT,
@@ -89,13 +91,13 @@ class FieldMedium final : public Medium {
 
   /// Collisions weigh extinction, not scattering.
   template <std::size_t N>
-  FreeFlight flyOn(const ClippedLine& line, const Segment& segment, const FlightQuery<N>& query, Rng& rng,
-                   RenderCounters& counters) const;
+  FreeFlight flyOn(const ClippedLine& line, const Segment& segment, const FlightQuery<N>& query,
+                   PixelStream random, RenderCounters& counters) const;
 
   /// Learned bounds grow where somebody looks. While they still do, every segment looks once more, at a
   /// random point: thin first bounds alone would hardly ever look, nor tell how much they cut away. It
   /// changes no estimate of the pass.
-  void explore(const ClippedLine& line, Rng& rng, RenderCounters& counters) const;
+  void explore(const ClippedLine& line, PixelStream random, RenderCounters& counters) const;
   /// Adds what a segment cost, and notes an example of a violated bound if there is none yet.
   void count(const ClippedLine& line, const Segment& segment, const LookupTally& tally,
              RenderCounters& counters) const;
@@ -108,7 +110,7 @@ class FieldMedium final : public Medium {
   AnyEstimator estimator_;
   AnyLaw law_;
   bool isExponential_;
-  AnySampler sampler_;
+  AnyFlight flights_;
   PatternKind samplingPattern_;
   std::unique_ptr<PhaseFunction> phase_;
   FieldEmission emission_;

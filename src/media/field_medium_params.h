@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "freeflight/any_sampler.h"
+#include "freeflight/any_flight.h"
 #include "media/bounds_params.h"
 #include "media/emission/emission_pattern.h"
 #include "media/medium_params.h"
@@ -19,7 +19,7 @@ struct FieldMediumParams : MediumParams {
   /// What `le` is multiplied with from place to place; null: nothing.
   std::shared_ptr<const EmissionPattern> emissionPattern;
   std::optional<AnyEstimator> estimator;  ///< none: chosen by `chooseEstimator`
-  AnySampler sampler;
+  AnyFlight flights;
   PatternKind pattern = PatternKind::Independent;  ///< across the estimates of one pixel
   BoundsParams bounds;
 };

@@ -35,7 +35,7 @@ HomogeneousMedium::HomogeneousMedium(Params params)
   albedo_ = albedoOf(sigmaS_, sigmaT_);
 }
 
-Rgb HomogeneousMedium::transmittance(const Segment& segment, Rng&, RenderCounters&) const {
+Rgb HomogeneousMedium::transmittance(const Segment& segment, PixelStream, RenderCounters&) const {
   const double distance = segment.length();
   const auto through = [&](float sigma) {
     return static_cast<float>(std::exp(-opticalDepth(sigma, distance)));
@@ -43,22 +43,23 @@ Rgb HomogeneousMedium::transmittance(const Segment& segment, Rng&, RenderCounter
   return grey_ ? Rgb(through(sigmaT_.r)) : Rgb(through(sigmaT_.r), through(sigmaT_.g), through(sigmaT_.b));
 }
 
-FreeFlight HomogeneousMedium::sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
+FreeFlight HomogeneousMedium::sampleFreeFlight(const Segment& segment, Rgb throughput, PixelStream random,
                                                RenderCounters& counters) const {
   // A medium of nothing takes no random number: its boundaries leave the image as it is, bit for bit.
   if (sigmaT_.isBlack()) return {};
   // What only absorbs dims: its collisions would end paths and nothing else.
-  if (sigmaS_.isBlack()) return {false, 0, transmittance(segment, rng, counters)};
-  return grey_ ? fly(segment, FlightQuery<1>{{sigmaT_.r}}, rng)
+  if (sigmaS_.isBlack()) return {false, 0, transmittance(segment, random, counters)};
+  return grey_ ? fly(segment, FlightQuery<1>{{sigmaT_.r}}, SampleStream(random.rng()))
                : fly(segment,
                      FlightQuery<3>{.sigmaT = channelsOf(sigmaT_),
                                     .importance = importanceOf(channelsOf(throughput))},
-                     rng);
+                     SampleStream(random.rng()));
 }
 
 template <std::size_t N>
-FreeFlight HomogeneousMedium::fly(const Segment& segment, const FlightQuery<N>& query, Rng& rng) const {
-  const InvertedDepth<N> inverted(query, rng);
+FreeFlight HomogeneousMedium::fly(const Segment& segment, const FlightQuery<N>& query,
+                                  SampleStream stream) const {
+  const InvertedDepth<N> inverted(query, stream);
   const double length = segment.length(), distance = inverted.column();
   if (!(distance < length)) return {false, 0, toRgb(withoutImportance(query, inverted.passedAt(length)))};
   return {true, segment.tMin + distance,
@@ -73,15 +74,15 @@ FlightControl HomogeneousMedium::flightControl(const Segment& segment) const {
   return control;
 }
 
-EmissionSamples HomogeneousMedium::sampleEmission(const Segment& segment, Rng& rng,
+EmissionSamples HomogeneousMedium::sampleEmission(const Segment& segment, PixelStream random,
                                                   RenderCounters& counters) const {
   EmissionSamples samples;
-  EmissionSampler sampler(0, rng);
+  EmissionSampler sampler(0, random.rng());
   sampler.add(0, segment.length(), channelsOf(emission_), channelsOf(sigmaT_));
   const auto distance = sampler.distance();
   if (!distance) return samples;
   // From the distance itself: far from the segment's origin t is coarser than the way light goes.
-  const Rgb through = transmittance({segment.o, segment.d, 0, distance->s}, rng, counters);
+  const Rgb through = transmittance({segment.o, segment.d, 0, distance->s}, random, counters);
   samples.add(segment.tMin + distance->s, through * emission_ * static_cast<float>(1 / distance->pdf));
   return samples;
 }

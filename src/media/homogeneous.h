@@ -7,6 +7,7 @@
 #include "freeflight/flight_query.h"
 #include "media/medium.h"
 #include "media/medium_params.h"
+#include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
 
@@ -21,8 +22,8 @@ class HomogeneousMedium final : public Medium {
   explicit HomogeneousMedium(Params params);
 
   std::string_view typeName() const override { return kTypeName; }
-  Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
-  FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
+  Rgb transmittance(const Segment& segment, PixelStream random, RenderCounters& counters) const override;
+  FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, PixelStream random,
                               RenderCounters& counters) const override;
   const PhaseFunction& phase() const override { return *phase_; }
   Rgb sigmaT() const override { return sigmaT_; }
@@ -30,14 +31,15 @@ class HomogeneousMedium final : public Medium {
   MediumPoint at(Point3f, RenderCounters&) const override { return {sigmaS_, emission_}; }
   FlightControl flightControl(const Segment& segment) const override;
   bool isEmissive() const override { return !emission_.isBlack(); }
-  EmissionSamples sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const override;
+  EmissionSamples sampleEmission(const Segment& segment, PixelStream random,
+                                 RenderCounters& counters) const override;
   std::unique_ptr<const EmissionVolume> emissionVolume(const Bounds3f& boundary) const override;
   Bounds3f bounds() const override;
   std::string describe() const override;
 
  private:
   template <std::size_t N>
-  FreeFlight fly(const Segment& segment, const FlightQuery<N>& query, Rng& rng) const;
+  FreeFlight fly(const Segment& segment, const FlightQuery<N>& query, SampleStream stream) const;
 
   Rgb sigmaS_, sigmaT_, albedo_, emission_;
   std::unique_ptr<PhaseFunction> phase_;

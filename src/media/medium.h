@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/bounds.h"
-#include "base/rng.h"
+#include "base/pixel_stream.h"
 #include "base/segment.h"
 #include "base/statistics.h"
 #include "spectrum/rgb.h"
@@ -80,13 +80,13 @@ class Medium {
 
   /// Unbiased estimate of exp(-∫ sigma_t dt) per channel over the segment; may leave [0, 1] where the
   /// estimator's traits say so. Zero length: exactly 1.
-  virtual Rgb transmittance(const Segment& segment, Rng& rng, RenderCounters& counters) const = 0;
+  virtual Rgb transmittance(const Segment& segment, PixelStream random, RenderCounters& counters) const = 0;
   /// Samples where the next real collision lies. Random numbers are drawn on the way: with the same numbers,
   /// the flight over a shorter segment with the same start takes the same steps up to its end, and passes
   /// when the longer one collides beyond it. (Overlapping media rely on it.)
   /// `throughput`: of the path so far, any sign. Chances are shared out among the channels as the path weighs
   /// them, which bounds the weights of whole paths; where it is 0 a chromatic medium may return weight 0.
-  virtual FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, Rng& rng,
+  virtual FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, PixelStream random,
                                       RenderCounters& counters) const = 0;
   virtual const PhaseFunction& phase() const = 0;
   /// Whether transmittance is the exponential of the optical depth. If not, collisions at a distance are not
@@ -104,8 +104,9 @@ class Medium {
 
   // What emits has these too.
   virtual bool isEmissive() const { return false; }
-  virtual EmissionSamples sampleEmission(const Segment& segment, Rng& rng, RenderCounters& counters) const {
-    (void)segment, (void)rng, (void)counters;
+  virtual EmissionSamples sampleEmission(const Segment& segment, PixelStream random,
+                                         RenderCounters& counters) const {
+    (void)segment, (void)random, (void)counters;
     return {};
   }
   /// For light sampling; null when there is nothing to sample. A medium without an end of its own is sampled

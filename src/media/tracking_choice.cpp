@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "media/tracking_choice.h"
 
-#include "freeflight/sampler_list.h"
+#include "freeflight/flight_list.h"
 #include "transmittance/estimator_list.h"
 
 namespace pbrtmedia {
@@ -36,6 +36,6 @@ AnyEstimator estimatorOfAnyLaw(bool hasPieces) {
   return hasPieces ? AnyEstimator(RegularTracking{}) : AnyEstimator(DebiasedRayMarching{});
 }
 
-AnySampler samplerOfAnyLaw() { return RegularFlight{}; }
+AnyFlight flightOfAnyLaw() { return RegularFlight{}; }
 
 }  // namespace pbrtmedia

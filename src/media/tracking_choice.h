@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include "freeflight/any_sampler.h"
+#include "freeflight/any_flight.h"
 #include "media/line_statistics.h"
 #include "transmittance/any_estimator.h"
 
@@ -28,6 +28,6 @@ AnyEstimator ratioTrackingWithRoulette();
 /// For laws beside the exponential one, by whether the density has cubic pieces: exact where it has.
 AnyEstimator estimatorOfAnyLaw(bool hasPieces);
 /// For such laws where there are pieces.
-AnySampler samplerOfAnyLaw();
+AnyFlight flightOfAnyLaw();
 
 }  // namespace pbrtmedia

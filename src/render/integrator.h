@@ -3,8 +3,8 @@
 
 #include <string_view>
 
+#include "base/pixel_stream.h"
 #include "base/ray.h"
-#include "base/rng.h"
 #include "base/statistics.h"
 #include "samplers/sampler.h"
 #include "spectrum/rgb.h"
@@ -19,6 +19,10 @@ struct SampleContext {
   Rng& rng;          ///< everything of unbounded dimension (tracking, roulette)
   RenderCounters& counters;
   MismatchLog* mismatches = nullptr;  ///< where inconsistent boundaries are noted; null: nowhere
+  PixelSample pixelSample = {};       ///< what `rng` serves, for patterns over the samples of a pixel
+
+  /// What media draw from.
+  PixelStream stream() { return {rng, pixelSample}; }
 };
 
 /// Light transport: estimates the radiance that arrives along a ray. Immutable after preparation,

@@ -305,11 +305,11 @@ Rgb renderSample(const Camera& camera, Sampler& sampler, const Integrator& integ
                                   std::sqrt(static_cast<float>(std::max<std::int64_t>(samplesPerPixel, 1))));
   Rng rng(hashCombine(seed, static_cast<std::uint32_t>(pixel.x), static_cast<std::uint32_t>(pixel.y),
                       static_cast<std::uint64_t>(sample), kRngTag));
-  rng.pixelSample() = {hashCombine(seed, static_cast<std::uint32_t>(pixel.x),
-                                   static_cast<std::uint32_t>(pixel.y), kPatternTag),
-                       static_cast<std::uint64_t>(sample),
-                       static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel, 0)), 0};
-  SampleContext context{sampler, rng, counters, mismatches};
+  const PixelSample pixelSample{hashCombine(seed, static_cast<std::uint32_t>(pixel.x),
+                                            static_cast<std::uint32_t>(pixel.y), kPatternTag),
+                                static_cast<std::uint64_t>(sample),
+                                static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel, 0)), 0};
+  SampleContext context{sampler, rng, counters, mismatches, pixelSample};
   return weighted.weight * integrator.radiance(weighted.ray, context);
 }
 

@@ -7,7 +7,6 @@
 #include <limits>
 #include <sstream>
 
-#include "base/rng.h"
 #include "media/medium.h"
 #include "spectrum/rgb.h"
 #include "world/boundary_sides.h"
@@ -147,12 +146,12 @@ void MediaTracker::escape(MediumState& state, RenderCounters& counters) const {
   if (repaired) ++counters.boundaryRepairs;
 }
 
-Rgb MediaTracker::transmittance(const MediumState& state, const Ray& ray, double tMin, double tMax, Rng& rng,
-                                RenderCounters& counters) {
+Rgb MediaTracker::transmittance(const MediumState& state, const Ray& ray, double tMin, double tMax,
+                                PixelStream random, RenderCounters& counters) {
   Rgb product(1.0f);
   for (std::size_t i = 0; i < state.activeCount() && !product.isBlack(); ++i) {
     const PlacedMedium m = state.active(i);
-    product *= m.medium->transmittance(segmentOf(m, ray, tMin, tMax), rng, counters);
+    product *= m.medium->transmittance(segmentOf(m, ray, tMin, tMax), random, counters);
   }
   return product;
 }
@@ -163,7 +162,7 @@ namespace {
 /// through up to there is told by the same flight on the shorter segment: as a flight draws its random
 /// numbers on the way (Medium::sampleFreeFlight), a replay of its numbers takes the same steps and passes.
 MediumFlight nearestOfFlights(const MediumState& state, const Ray& ray, double tMin, double tMax,
-                              Rgb throughput, Rng& rng, RenderCounters& counters) {
+                              Rgb throughput, PixelStream random, RenderCounters& counters) {
   struct Flight {
     Rng start;
     Rgb passed;
@@ -176,8 +175,9 @@ MediumFlight nearestOfFlights(const MediumState& state, const Ray& ray, double t
   std::size_t winner = state.activeCount();
   for (std::size_t i = 0; i < state.activeCount(); ++i) {
     const PlacedMedium m = state.active(i);
-    const Rng start = rng;
-    const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), throughput, rng, counters);
+    const Rng start = random.rng();
+    const FreeFlight f =
+        m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), throughput, random, counters);
     flights.push_back({start, f.weight, tMax});
     if (!f.collided) continue;
     tMax = f.t;
@@ -206,11 +206,13 @@ MediumFlight nearestOfFlights(const MediumState& state, const Ray& ray, double t
 }  // namespace
 
 MediumFlight MediaTracker::sampleFreeFlight(const MediumState& state, const Ray& ray, double tMin,
-                                            double tMax, Rgb throughput, Rng& rng, RenderCounters& counters) {
+                                            double tMax, Rgb throughput, PixelStream random,
+                                            RenderCounters& counters) {
   if (state.isVacuum()) return {};
-  if (state.activeCount() > 1) return nearestOfFlights(state, ray, tMin, tMax, throughput, rng, counters);
+  if (state.activeCount() > 1) return nearestOfFlights(state, ray, tMin, tMax, throughput, random, counters);
   const PlacedMedium m = state.active(0);
-  const FreeFlight f = m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), throughput, rng, counters);
+  const FreeFlight f =
+      m.medium->sampleFreeFlight(segmentOf(m, ray, tMin, tMax), throughput, random, counters);
   return {f.collided, f.t, f.weight, f.collided ? &m.medium->phase() : nullptr};
 }
 
@@ -273,15 +275,16 @@ bool MediaTracker::emits(const MediumState& state) {
 }
 
 EmissionSamples MediaTracker::sampleEmission(const MediumState& state, std::size_t i, const Ray& ray,
-                                             double tMin, double tMax, Rng& rng, RenderCounters& counters) {
+                                             double tMin, double tMax, PixelStream random,
+                                             RenderCounters& counters) {
   const PlacedMedium m = state.active(i);
-  EmissionSamples found = m.medium->sampleEmission(segmentOf(m, ray, tMin, tMax), rng, counters);
+  EmissionSamples found = m.medium->sampleEmission(segmentOf(m, ray, tMin, tMax), random, counters);
   for (std::size_t s = 0; s < found.count; ++s) {
     auto& [t, radiance] = found.samples[s];
     for (std::size_t other = 0; other < state.activeCount() && !radiance.isBlack(); ++other) {
       if (other == i) continue;
       const PlacedMedium o = state.active(other);
-      radiance *= o.medium->transmittance(segmentOf(o, ray, tMin, t), rng, counters);
+      radiance *= o.medium->transmittance(segmentOf(o, ray, tMin, t), random, counters);
     }
   }
   return found;

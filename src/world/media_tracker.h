@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/rng.h"
+#include "base/pixel_stream.h"
 #include "media/medium.h"
 #include "media/phase/phase_function.h"
 #include "spectrum/rgb.h"
@@ -65,13 +65,13 @@ class MediaTracker {
 
   /// Unbiased estimate of the transmittance of all active media over tMin < t < tMax of the world ray; their
   /// product. Stops as soon as it is black.
-  static Rgb transmittance(const MediumState& state, const Ray& ray, double tMin, double tMax, Rng& rng,
-                           RenderCounters& counters);
+  static Rgb transmittance(const MediumState& state, const Ray& ray, double tMin, double tMax,
+                           PixelStream random, RenderCounters& counters);
   /// The nearest of independent free flights through the active media, weighted by what the other media let
   /// through up to there.
   /// `throughput`: of the path so far (Medium::sampleFreeFlight).
   static MediumFlight sampleFreeFlight(const MediumState& state, const Ray& ray, double tMin, double tMax,
-                                       Rgb throughput, Rng& rng, RenderCounters& counters);
+                                       Rgb throughput, PixelStream random, RenderCounters& counters);
   /// What the media scatter at `t` from `wi` toward `wo` per length: the sum of sigma_s times the phase
   /// function. `wi` away from the point, as `wo`.
   static Rgb scattering(const MediumState& state, const Ray& ray, double t, Vector3f wo, Vector3f wi,
@@ -89,7 +89,7 @@ class MediaTracker {
   /// Points of the segment chosen where active medium number `i` emits, with what all media let through of
   /// it.
   static EmissionSamples sampleEmission(const MediumState& state, std::size_t i, const Ray& ray, double tMin,
-                                        double tMax, Rng& rng, RenderCounters& counters);
+                                        double tMax, PixelStream random, RenderCounters& counters);
   /// Whether the medium can be only within closed boundaries.
   bool isConfined(const Medium* medium) const {
     return medium != cameraMedium_ && boundaries_.isConfined(medium);

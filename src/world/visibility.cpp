@@ -37,10 +37,10 @@ class PassedStretches {
     if (!state.isVacuum() && tMin < tMax) stretches_.push_back({state, tMin, tMax});
   }
   /// What they let through.
-  Rgb transmittance(Rng& rng, RenderCounters& counters) {
+  Rgb transmittance(PixelStream random, RenderCounters& counters) {
     for (const Stretch& s : stretches_) {
       if (through_.isBlack()) break;
-      through_ *= MediaTracker::transmittance(s.state, ray_, s.tMin, s.tMax, rng, counters);
+      through_ *= MediaTracker::transmittance(s.state, ray_, s.tMin, s.tMax, random, counters);
     }
     stretches_.clear();
     return through_;
@@ -58,11 +58,11 @@ class PassedStretches {
 
 /// The emission of `medium` on a stretch in `state`, seen from the stretch's start.
 Rgb emissionOf(const PlacedMedium& medium, const MediumState& state, const Ray& ray, double tMin, double tMax,
-               Rng& rng, RenderCounters& counters) {
+               PixelStream random, RenderCounters& counters) {
   Rgb sum;
   for (std::size_t i = 0; i < state.activeCount(); ++i) {
     if (!(state.active(i) == medium)) continue;
-    const EmissionSamples found = MediaTracker::sampleEmission(state, i, ray, tMin, tMax, rng, counters);
+    const EmissionSamples found = MediaTracker::sampleEmission(state, i, ray, tMin, tMax, random, counters);
     for (const EmissionSamples::Sample& s : found) sum += s.radiance;
   }
   return sum;
@@ -78,7 +78,7 @@ bool isActive(const PlacedMedium& medium, const MediumState& state) {
 }  // namespace
 
 Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
-                   const PlacedMedium& medium, Span<double> span, MediumState state, Rng& rng,
+                   const PlacedMedium& medium, Span<double> span, MediumState state, PixelStream random,
                    RenderCounters& counters, MismatchLog* log) {
   MediaWalk walk({scene, &tracker, counters, counters.shadowRays, log}, state,
                  LineWalk(scene, shadow.ray, shadow.exclusions), shadow.from);
@@ -91,9 +91,9 @@ Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const Shadow
     const double from = std::max(t, span.tMin), to = std::min(walk.tEnd(), span.tMax);
     if (from < to && isActive(medium, state)) {
       passed.add(state, t, from);
-      const Rgb through = passed.transmittance(rng, counters);
+      const Rgb through = passed.transmittance(random, counters);
       if (through.isBlack()) return sum;
-      sum += through * emissionOf(medium, state, ray, from, to, rng, counters);
+      sum += through * emissionOf(medium, state, ray, from, to, random, counters);
       t = from;
     }
     passed.add(state, t, walk.tEnd());
@@ -105,7 +105,7 @@ Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const Shadow
 }
 
 Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
-                        MediumState& state, Rng& rng, RenderCounters& counters, MismatchLog* log) {
+                        MediumState& state, PixelStream random, RenderCounters& counters, MismatchLog* log) {
   MediaWalk walk({scene, &tracker, counters, counters.shadowRays, log}, state,
                  LineWalk(scene, shadow.ray, shadow.exclusions), shadow.from);
   const auto blocks = [&](const SceneHit& h) { return h.primitive->material || h.isHider(shadow.hider); };
@@ -114,7 +114,7 @@ Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const S
     const SceneHit* const nearest = walk.ahead();
     if (nearest && blocks(*nearest)) return {};
     if (!state.isVacuum()) {
-      product *= MediaTracker::transmittance(state, walk.ray(), walk.t(), walk.tEnd(), rng, counters);
+      product *= MediaTracker::transmittance(state, walk.ray(), walk.t(), walk.tEnd(), random, counters);
       if (product.isBlack()) return product;
     }
     const std::optional<SceneHit> hit = walk.next();

@@ -25,13 +25,13 @@ ShadowRay shadowRayTo(const Scene& scene, std::size_t light, const LightSample& 
 /// dimmed by everything on the way: black when a surface with a material is before it. `ray.tMax` is behind
 /// the span. Unbiased. `state`: of the start.
 Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
-                   const PlacedMedium& medium, Span<double> span, MediumState state, Rng& rng,
+                   const PlacedMedium& medium, Span<double> span, MediumState state, PixelStream random,
                    RenderCounters& counters, MismatchLog* log);
 
 /// Transmittance of the media along the shadow ray, starting in `state`: black when a surface with a material
 /// is in the way, or `shadow.hider`. Boundaries without material are crossed. shadowalpha does not apply
 /// (closest hits are searched). `state` is then that of the far end.
 Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
-                        MediumState& state, Rng& rng, RenderCounters& counters, MismatchLog* log);
+                        MediumState& state, PixelStream random, RenderCounters& counters, MismatchLog* log);
 
 }  // namespace pbrtmedia

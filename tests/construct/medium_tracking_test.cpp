@@ -3,7 +3,7 @@
 #include <set>
 
 #include "construct/probe.h"
-#include "freeflight/sampler_list.h"
+#include "freeflight/flight_list.h"
 #include "transmittance/estimator_list.h"
 
 namespace pbrtmedia::test {
@@ -27,9 +27,9 @@ std::string quoted(const ParameterDescription& d) {
 }
 
 TEST(ConstructFreeFlight, EverySamplerOfTheListCanBeNamedWithItsParameters) {
-  for (const std::string_view name : samplerNames()) {
+  for (const std::string_view name : flightNames()) {
     const std::string named = kGrid + "\"string freeflight\" \"" + std::string(name) + "\"";
-    const AnySampler sampler = *findSampler(name);
+    const AnyFlight sampler = *findFlight(name);
     std::string all = named;
     for (const ParameterDescription& d : parametersOf(sampler)) all += quoted(d);
     const Attempt bare = with(named), spelled = with(all);
@@ -38,7 +38,7 @@ TEST(ConstructFreeFlight, EverySamplerOfTheListCanBeNamedWithItsParameters) {
     EXPECT_EQ(media(bare), media(spelled)) << name;
     EXPECT_NE(mediumOf(bare)->describe().find("sampler " + std::string(name)), std::string::npos)
         << mediumOf(bare)->describe();
-    const SamplerTraits traits = traitsOf(sampler);
+    const FlightTraits traits = traitsOf(sampler);
     if (traits.bias == EstimatorTraits::Bias::Unbiased) {
       EXPECT_TRUE(bare.isSilent()) << bare.messages();
     } else {
@@ -48,10 +48,10 @@ TEST(ConstructFreeFlight, EverySamplerOfTheListCanBeNamedWithItsParameters) {
 }
 
 TEST(ConstructFreeFlight, NoParameterMeansTwoThings) {
-  for (const std::string_view samplerName : samplerNames()) {
+  for (const std::string_view samplerName : flightNames()) {
     for (const std::string_view estimatorName : estimatorNames()) {
       std::set<std::string> names;
-      for (const ParameterDescription& d : parametersOf(*findSampler(samplerName))) names.insert(d.name);
+      for (const ParameterDescription& d : parametersOf(*findFlight(samplerName))) names.insert(d.name);
       for (const ParameterDescription& d : parametersOf(*findEstimator(estimatorName)))
         EXPECT_EQ(names.count(d.name), 0u) << samplerName << " and " << estimatorName << " have " << d.name;
     }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "freeflight/sampler_list.h"
+#include "freeflight/flight_list.h"
 #include "support/function_line.h"
 #include "support/statistics.h"
 
@@ -35,11 +35,12 @@ TEST(WeightedDeltaTracking, DrawsDistancesFromTheExactDistribution) {
     for (const double sigma : {.3, 2., 20.}) {
       const FunctionLine line = ramp(withLowerBounds);
       Rng rng(kSeed);
+      SampleStream stream(rng);
       std::vector<double> distances;
       constexpr double kN = 200000;
       double passed = 0;
       for (double n = 0; n < kN; ++n) {
-        const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{sigma}}, rng);
+        const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{sigma}}, stream);
         ASSERT_EQ(flight.weight[0], 1.0);
         passed += flight.collided ? 0 : 1;
         if (flight.collided) distances.push_back(flight.s);
@@ -66,9 +67,10 @@ struct ProvenLine : FunctionLine {
 TEST(WeightedDeltaTracking, AsksForNoDensityWhereLowerAndUpperBoundAgree) {
   const ProvenLine line{{[](double) { return 2.0; }, {{1, {2, 2}}}}};
   Rng rng(kSeed);
+  SampleStream stream(rng);
   std::vector<double> distances;
   for (int n = 0; n < 50000; ++n) {
-    const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{3}}, rng);
+    const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{3}}, stream);
     ASSERT_EQ(flight.tally.lookups, 0u);
     ASSERT_EQ(flight.tally.nullCollisions, 0u);
     if (flight.collided) distances.push_back(flight.s);
@@ -81,13 +83,14 @@ TEST(WeightedDeltaTracking, DoesNotTrustALowerBoundThatNobodyProved) {
   // The density is half of its lower bound: taken for certain, every second collision would be one too many.
   const FunctionLine line{[](double) { return 1.0; }, {{1, {4, 2}}}};
   Rng rng(kSeed);
-  for (const AnySampler& sampler : {AnySampler(WeightedDeltaTracking{}), AnySampler(DeltaTracking{}),
-                                    AnySampler(DecompositionTracking{})}) {
+  SampleStream stream(rng);
+  for (const AnyFlight& sampler :
+       {AnyFlight(WeightedDeltaTracking{}), AnyFlight(DeltaTracking{}), AnyFlight(DecompositionTracking{})}) {
     RunningStats passed;
     for (int n = 0; n < 100000; ++n) {
-      const auto flight = visitSampler(
+      const auto flight = visitFlight(
           [&](const auto& held) {
-            return flyOn(held, line, FlightQuery<1>{{1}, {.5}}, rng);
+            return flyOn(held, line, FlightQuery<1>{{1}, {.5}}, stream);
           },
           sampler);
       passed.add(flight.collided ? 0 : flight.weight[0]);
@@ -100,8 +103,9 @@ TEST(WeightedDeltaTracking, DoesNotTrustALowerBoundThatNobodyProved) {
 TEST(WeightedDeltaTracking, PassesVacuumAndClearMedia) {
   const FunctionLine vacuum{[](double) { return 0.0; }, {{1, {0, 0}}}};
   Rng rng(1);
-  EXPECT_FALSE(WeightedDeltaTracking()(vacuum, FlightQuery<1>{{5}}, rng).collided);
-  const auto clear = WeightedDeltaTracking()(ramp(true), FlightQuery<3>{{0, 0, 0}}, rng);
+  SampleStream stream(rng);
+  EXPECT_FALSE(WeightedDeltaTracking()(vacuum, FlightQuery<1>{{5}}, stream).collided);
+  const auto clear = WeightedDeltaTracking()(ramp(true), FlightQuery<3>{{0, 0, 0}}, stream);
   EXPECT_FALSE(clear.collided);
   EXPECT_EQ(clear.weight, filled<3>(1));
   EXPECT_EQ(clear.tally.lookups, 0u);
@@ -111,10 +115,11 @@ TEST(WeightedDeltaTracking, NeverChoosesAnEventOfProbabilityZero) {
   const FunctionLine nothing{[](double) { return 0.0; }, {{1, {1, 0}}}};
   const FunctionLine everything{[](double) { return 1.0; }, {{1, {1, 0}}}};
   Rng rng(kSeed);
+  SampleStream stream(rng);
   for (int n = 0; n < 200000; ++n) {
-    ASSERT_FALSE(WeightedDeltaTracking()(nothing, FlightQuery<1>{{3}}, rng).collided);
-    ASSERT_EQ(WeightedDeltaTracking()(everything, FlightQuery<1>{{3}}, rng).tally.nullCollisions, 0u);
-    const auto passed = WeightedDeltaTracking()(nothing, FlightQuery<3>{{0, 1, 3}}, rng);
+    ASSERT_FALSE(WeightedDeltaTracking()(nothing, FlightQuery<1>{{3}}, stream).collided);
+    ASSERT_EQ(WeightedDeltaTracking()(everything, FlightQuery<1>{{3}}, stream).tally.nullCollisions, 0u);
+    const auto passed = WeightedDeltaTracking()(nothing, FlightQuery<3>{{0, 1, 3}}, stream);
     ASSERT_FALSE(passed.collided);
     for (const double w : passed.weight) ASSERT_NEAR(w, 1, 1e-9);
   }
@@ -124,9 +129,10 @@ TEST(WeightedDeltaTracking, StaysRightInVeryDenseMedia) {
   for (const double sigma : {50., 1e3, 1e6}) {
     const FunctionLine line{[](double) { return 1.0; }, {{.5, {2, 0}}, {1, {1, 0}}}};
     Rng rng(kSeed);
+    SampleStream stream(rng);
     std::vector<double> depths;
     for (int n = 0; n < 20000; ++n) {
-      const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{sigma}}, rng);
+      const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{sigma}}, stream);
       ASSERT_TRUE(flight.collided);
       depths.push_back(sigma * flight.s);
     }
@@ -139,18 +145,20 @@ TEST(WeightedDeltaTracking, FindsTheRareCollisionsOfThinMedia) {
   const FunctionLine line = ramp(false);
   constexpr double kTau = 1e-6, kN = 1.6e7;
   Rng rng(kSeed);
+  SampleStream stream(rng);
   double collisions = 0;
   for (double n = 0; n < kN; ++n)
-    collisions += WeightedDeltaTracking()(line, FlightQuery<1>{{kTau}}, rng).collided ? 1 : 0;
+    collisions += WeightedDeltaTracking()(line, FlightQuery<1>{{kTau}}, stream).collided ? 1 : 0;
   EXPECT_LT(std::abs(collisions - kN * kTau) / std::sqrt(kN * kTau), kMaxAbsZ) << collisions;
 }
 
 /// Expected weights per channel: passed T, collided 1 - T, and the mean place of collisions.
 void checkWeights(const FunctionLine& line, const Channels<3>& sigma, double largestWeight) {
   Rng rng(kSeed);
+  SampleStream stream(rng);
   RunningStats passed[3], collided[3], place[3];
   for (int n = 0; n < 400000; ++n) {
-    const auto flight = WeightedDeltaTracking()(line, FlightQuery<3>{sigma}, rng);
+    const auto flight = WeightedDeltaTracking()(line, FlightQuery<3>{sigma}, stream);
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
       const double w = flight.weight[c];
@@ -193,10 +201,11 @@ TEST(WeightedDeltaTracking, StaysUnbiasedAndCountsWhereABoundIsViolated) {
     }
     checkWeights(line, {.5, 1, 2}, 1e3);
     Rng rng(kSeed);
+    SampleStream stream(rng);
     RunningStats passed, collided;
     LookupTally worst;
     for (int n = 0; n < 400000; ++n) {
-      const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{2}}, rng);
+      const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{2}}, stream);
       ASSERT_TRUE(std::isfinite(flight.weight[0]));
       passed.add(flight.collided ? 0 : flight.weight[0]);
       collided.add(flight.collided ? flight.weight[0] : 0);
@@ -215,21 +224,22 @@ TEST(WeightedDeltaTracking, StaysUnbiasedAndCountsWhereABoundIsViolated) {
 TEST(WeightedDeltaTracking, CountsDensityUnderABoundOfZeroAndEnds) {
   const FunctionLine line{[](double) { return 3.0; }, {{1, {0, 0}}}};
   Rng rng(1);
-  const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{1}}, rng);
+  SampleStream stream(rng);
+  const auto flight = WeightedDeltaTracking()(line, FlightQuery<1>{{1}}, stream);
   EXPECT_FALSE(flight.collided);
   EXPECT_EQ(flight.tally.violations, 1u);
   EXPECT_EQ(flight.tally.worstRatio, std::numeric_limits<double>::infinity());
 }
 
-TEST(AnySampler, IsFoundByEveryNameOfTheList) {
-  const auto names = samplerNames();
-  EXPECT_EQ(names.size(), std::variant_size_v<SamplerVariant>);
+TEST(AnyFlight, IsFoundByEveryNameOfTheList) {
+  const auto names = flightNames();
+  EXPECT_EQ(names.size(), std::variant_size_v<FlightVariant>);
   for (const auto name : names) {
-    const auto sampler = findSampler(name);
+    const auto sampler = findFlight(name);
     ASSERT_TRUE(sampler) << name;
     EXPECT_EQ(nameOf(*sampler), name);
   }
-  EXPECT_FALSE(findSampler("gamma"));
+  EXPECT_FALSE(findFlight("gamma"));
 }
 
 }  // namespace

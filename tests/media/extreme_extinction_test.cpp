@@ -22,15 +22,15 @@ constexpr float kExtreme = 1e20f, kLargest = 3e38f;
 const Segment kThrough{{-1, .52f, .48f}, {1, 0, 0}, 0, kInfinity};
 
 /// What all parameters of field media have in common here.
-void set(FieldMediumParams& params, Rgb sigmaT, const AnyEstimator& estimator, const AnySampler& sampler,
+void set(FieldMediumParams& params, Rgb sigmaT, const AnyEstimator& estimator, const AnyFlight& sampler,
          bool scatters) {
   params.sigmaS = scatters ? sigmaT : Rgb(0);
   params.sigmaA = scatters ? Rgb(0) : sigmaT;
   params.estimator = estimator;
-  params.sampler = sampler;
+  params.flights = sampler;
 }
 
-std::unique_ptr<Medium> noise(Rgb sigmaT, const AnyEstimator& estimator = {}, const AnySampler& sampler = {},
+std::unique_ptr<Medium> noise(Rgb sigmaT, const AnyEstimator& estimator = {}, const AnyFlight& sampler = {},
                               bool scatters = false) {
   ProceduralMediumParams params;
   params.name = "noise";
@@ -41,7 +41,7 @@ std::unique_ptr<Medium> noise(Rgb sigmaT, const AnyEstimator& estimator = {}, co
 }
 
 /// 0 up to x = 1/2, from there a ramp.
-std::unique_ptr<Medium> ramp(Rgb sigmaT, const AnyEstimator& estimator = {}, const AnySampler& sampler = {},
+std::unique_ptr<Medium> ramp(Rgb sigmaT, const AnyEstimator& estimator = {}, const AnyFlight& sampler = {},
                              bool scatters = false) {
   GridMediumParams params;
   params.name = "ramp";
@@ -71,9 +71,9 @@ TEST(ExtremeExtinction, IsOpaqueToEveryEstimator) {
 TEST(ExtremeExtinction, EndsFlightsWhereDensityBegins) {
   Rng rng(kSeed);
   RenderCounters counters;
-  for (const std::string_view name : samplerNames()) {
+  for (const std::string_view name : flightNames()) {
     SCOPED_TRACE(name);
-    const AnySampler sampler = *findSampler(name);
+    const AnyFlight sampler = *findFlight(name);
     if (traitsOf(sampler).bias != EstimatorTraits::Bias::Unbiased) continue;  // marches over the beginning
     const auto onRamp = ramp(Rgb(kExtreme), {}, sampler, true);
     // Half a voxel before the first positive sample interpolation begins: at (7 + 1/2) / 16 of the cube.

@@ -99,9 +99,10 @@ TEST(GridMedium, TakesAnotherPatternForEachEstimateOfASample) {
     for (std::uint64_t sample = 0; sample < 16; ++sample) {
       Rng rng(hashCombine(kSeed, pixel, sample));
       RenderCounters counters;
-      rng.pixelSample() = {pixel, sample, 16, 0};
-      const float first = medium->transmittance(kAxis, rng, counters).r;
-      product += double{first * medium->transmittance(kAxis, rng, counters).r} / 16;
+      PixelSample pixelSample{pixel, sample, 16, 0};
+      const PixelStream random(rng, pixelSample);
+      const float first = medium->transmittance(kAxis, random, counters).r;
+      product += double{first * medium->transmittance(kAxis, random, counters).r} / 16;
     }
     products.add(product);
   }
@@ -276,10 +277,11 @@ TEST(GridMedium, DescribesItselfInOneLine) {
   EXPECT_EQ(medium->typeName(), "heterogeneous");
   EXPECT_EQ(medium->name(), "smoke");
   const std::size_t bytes = 10 * 10 * 10 * sizeof(float) + 5 * 5 * 5 * sizeof(SuperVoxel);
-  EXPECT_EQ(medium->describe(),
-            "grid 8 x 8 x 8, super-voxels 3 x 3 x 3 (0 empty), estimator ratio, sampler weighted-delta, 1 "
-            "channel, " +
-                std::to_string(bytes) + " bytes");
+  EXPECT_EQ(
+      medium->describe(),
+      "grid 8 x 8 x 8, super-voxels 3 x 3 x 3 (0 empty), estimator ratio, free flights weighted-delta, 1 "
+      "channel, " +
+          std::to_string(bytes) + " bytes");
 }
 
 }  // namespace

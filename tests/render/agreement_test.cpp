@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "freeflight/sampler_list.h"
+#include "freeflight/flight_list.h"
 #include "support/render_scene.h"
 #include "support/temporary_folder.h"
 #include "transmittance/estimator_list.h"
@@ -170,8 +170,8 @@ TEST_P(Agreement, OfEveryEstimatorWithEverySampler) {
         (estimator.needsPieces && !mediumClass.isPiecewiseCubic)) {
       continue;
     }
-    for (const std::string_view samplerName : samplerNames()) {
-      const SamplerTraits sampler = traitsOf(*findSampler(samplerName));
+    for (const std::string_view samplerName : flightNames()) {
+      const FlightTraits sampler = traitsOf(*findFlight(samplerName));
       if (sampler.bias != EstimatorTraits::Bias::Unbiased ||
           (sampler.needsPieces && !mediumClass.isPiecewiseCubic))
         continue;

@@ -38,15 +38,15 @@ class WatchedMedium final : public Medium {
               .phase = {PhaseLobe{}},
               .overlap = {}}) {}
   std::string_view typeName() const override { return "watched"; }
-  Rgb transmittance(const Segment& s, Rng& rng, RenderCounters& counters) const override {
+  Rgb transmittance(const Segment& s, PixelStream random, RenderCounters& counters) const override {
     watch(s);
-    return fog_.transmittance(s, rng, counters);
+    return fog_.transmittance(s, random, counters);
   }
   Rgb sigmaT() const override { return fog_.sigmaT(); }
-  FreeFlight sampleFreeFlight(const Segment& s, Rgb throughput, Rng& rng,
+  FreeFlight sampleFreeFlight(const Segment& s, Rgb throughput, PixelStream random,
                               RenderCounters& counters) const override {
     watch(s);
-    return fog_.sampleFreeFlight(s, throughput, rng, counters);
+    return fog_.sampleFreeFlight(s, throughput, random, counters);
   }
   const PhaseFunction& phase() const override { return fog_.phase(); }
   MediumPoint at(Point3f p, RenderCounters& counters) const override { return fog_.at(p, counters); }

@@ -140,7 +140,7 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, Event& event) {
   const BoundaryPlane& start = way.start;
   if (setup_.mediaEmit) collectMediumEmission(tMin, tMax);
   if (seesOnlyEmission()) {
-    beta_ *= MediaTracker::transmittance(state_, ray_, tMin, tMax, context_.rng, counters_);
+    beta_ *= MediaTracker::transmittance(state_, ray_, tMin, tMax, context_.stream(), counters_);
     return !beta_.isBlack();
   }
   std::optional<double> extinction;
@@ -153,7 +153,7 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, Event& event) {
     if (mean > 0) lightStretch({ray_, tMin, tMax, extinction}, hit, start);
   }
   const MediumFlight flight =
-      MediaTracker::sampleFreeFlight(state_, ray_, tMin, tMax, beta_, context_.rng, counters_);
+      MediaTracker::sampleFreeFlight(state_, ray_, tMin, tMax, beta_, context_.stream(), counters_);
   beta_ *= flight.weight;
   if (beta_.isBlack()) return false;
   // A path that media have dimmed on its way has little part in the variance. What is seen directly stays

@@ -45,12 +45,12 @@ Rgb PathTracer::arriving(const PickedLight& light, Point3f p, const Exclusions& 
     const auto span = emitter->span(p, s.wi, ray_.time);
     if (!span) return {};
     shadow.ray.tMax = s.distance;
-    return shadowEmission(scene, *setup_.media, shadow, emitter->medium(), *span, state, context_.rng,
+    return shadowEmission(scene, *setup_.media, shadow, emitter->medium(), *span, state, context_.stream(),
                           counters_, context_.mismatches);
   }
   MediumState end = state;
-  return s.radiance *
-         shadowTransmittance(scene, *setup_.media, shadow, end, context_.rng, counters_, context_.mismatches);
+  return s.radiance * shadowTransmittance(scene, *setup_.media, shadow, end, context_.stream(), counters_,
+                                          context_.mismatches);
 }
 
 /// Share of a light sample; what a direction of that density finds accounts for the rest.
@@ -125,7 +125,7 @@ void PathTracer::lightStretch(const PositionLights::Stretch& stretch, const Scen
                double{setup_.selector->probability(p, choice->light)};
   }
   const Rgb through =
-      MediaTracker::transmittance(state_, ray_, stretch.tMin, choice->t, context_.rng, counters_);
+      MediaTracker::transmittance(state_, ray_, stretch.tMin, choice->t, context_.stream(), counters_);
   if (through.isBlack()) return;
   radiance_ +=
       beta_ * through * scattered * static_cast<float>(1 / density) * arriving(light, p, {}, state_, &at);
@@ -137,7 +137,7 @@ void PathTracer::collectMediumEmission(double tMin, double tMax) {
     const PlacedMedium m = state_.active(i);
     if (!m.medium->isEmissive()) continue;
     const EmissionSamples found =
-        MediaTracker::sampleEmission(state_, i, ray_, tMin, tMax, context_.rng, counters_);
+        MediaTracker::sampleEmission(state_, i, ray_, tMin, tMax, context_.stream(), counters_);
     if (found.count == 0) continue;
     const std::optional<std::size_t> light = isDirect_ ? std::nullopt : setup_.scene.lightOf(m);
     const MediumLight* const source = light ? setup_.scene.mediumLight(*light) : nullptr;

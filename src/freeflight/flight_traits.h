@@ -9,7 +9,7 @@
 namespace pbrtmedia {
 
 /// What a free-flight sampler promises, for help, docs, error messages and contract tests.
-struct SamplerTraits {
+struct FlightTraits {
   std::string_view summary;  ///< how it finds the next collision, in one sentence
   std::string_view source;   ///< papers with equations
   std::string_view useWhen;  ///< advice, in one sentence
