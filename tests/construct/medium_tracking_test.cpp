@@ -36,7 +36,7 @@ TEST(ConstructFreeFlight, EverySamplerOfTheListCanBeNamedWithItsParameters) {
     ASSERT_TRUE(bare.made) << name << ": " << bare.messages();
     ASSERT_TRUE(spelled.made) << name << ": " << spelled.messages();
     EXPECT_EQ(media(bare), media(spelled)) << name;
-    EXPECT_NE(mediumOf(bare)->describe().find("sampler " + std::string(name)), std::string::npos)
+    EXPECT_NE(mediumOf(bare)->describe().find("free flights " + std::string(name)), std::string::npos)
         << mediumOf(bare)->describe();
     const FlightTraits traits = traitsOf(sampler);
     if (traits.bias == EstimatorTraits::Bias::Unbiased) {
