@@ -177,7 +177,7 @@ void WorldBuilder::addAreaLights(const ShapeDescription& shape, Primitive& primi
   primitive.areaLights.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     primitive.areaLights.push_back(
-        builder.own(std::make_unique<DiffuseAreaLight>(*primitive.shape, i, PrimitiveId{}, *params)));
+        builder.own(std::make_unique<DiffuseAreaLight>(*primitive.shape, i, *params)));
   }
 }
 

@@ -16,23 +16,27 @@ class DiffuseAreaLight final : public AreaLight {
     bool twoSided = false;  ///< "twosided"
     int samples = 1;        ///< "samples"
   };
-  /// `shape` must outlive the light; `primitive` counts inside it. `target` is how the accelerator names that
-  /// primitive.
-  DiffuseAreaLight(const Shape& shape, std::uint32_t primitive, PrimitiveId target, const Params& params);
+  /// `shape` must outlive the light; `primitive` counts inside it.
+  DiffuseAreaLight(const Shape& shape, std::uint32_t primitive, const Params& params);
 
   std::string_view typeName() const override { return "diffuse"; }
   bool isDelta() const override { return false; }
   bool isSplit() const override { return isSampledFromBehind_ && !twoSided_; }
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f reference, Vector3f wi, const SurfaceInteraction* hit) const override;
+  LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
+  LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   Rgb power() const override;
   Rgb emitted(Normal3f normal, Vector3f wo) const override;
-  PrimitiveId target() const { return target_; }
 
  private:
+  /// Solid-angle density of `sampleLe` for unit `d` where the normal of hits is `normal`.
+  float directionPdf(Normal3f normal, Vector3f d) const;
+  /// The normal that decides what light samples see emitting.
+  Normal3f emittingNormal(Normal3f normal) const { return isSampledFromBehind_ ? -normal : normal; }
+
   const Shape* shape_;
   std::uint32_t primitive_;
-  PrimitiveId target_;
   Rgb radiance_;
   bool twoSided_;
   bool isSampledFromBehind_;

@@ -3,8 +3,6 @@
 
 #include <stdexcept>
 
-#include "lights/light_geometry.h"
-
 namespace pbrtmedia {
 
 DistantLight::DistantLight(const Transform& worldFromLight, const Params& params)
@@ -16,9 +14,7 @@ DistantLight::DistantLight(const Transform& worldFromLight, const Params& params
   toLight_ = Vector3f(-normalize(travel));
 }
 
-void DistantLight::preprocess(const Bounds3f& sceneBounds) {
-  sceneRadius_ = boundingSphereRadius(sceneBounds);
-}
+void DistantLight::preprocess(const Bounds3f& sceneBounds) { scene_ = BoundingSphere(sceneBounds); }
 
 LightSample DistantLight::sample(Point3f, Point2f) const {
   LightSample s;
@@ -28,6 +24,20 @@ LightSample DistantLight::sample(Point3f, Point2f) const {
   return s;
 }
 
-Rgb DistantLight::power() const { return static_cast<float>(kPi * sqr(sceneRadius_)) * radiance_; }
+LeSample DistantLight::sampleLe(Point2f uPosition, Point2f, float time) const {
+  LeSample s{.ray = scene_.entering(-toLight_, uPosition, time),
+             .normal = -toLight_,
+             .radiance = radiance_,
+             .pdf = {}};
+  const float pdfPosition = scene_.pdfEntering(s.ray);
+  if (pdfPosition > 0) s.pdf = {.position = pdfPosition, .direction = 1};
+  return s;
+}
+
+LePdf DistantLight::pdfLe(const Ray& ray, Normal3f) const {
+  return {.position = scene_.pdfEntering(ray), .direction = 0};
+}
+
+Rgb DistantLight::power() const { return static_cast<float>(kPi * sqr(scene_.radius())) * radiance_; }
 
 }  // namespace pbrtmedia

@@ -3,6 +3,7 @@
 
 #include "base/transform.h"
 #include "lights/light.h"
+#include "lights/light_geometry.h"
 
 namespace pbrtmedia {
 
@@ -23,6 +24,8 @@ class DistantLight final : public Light {
   void preprocess(const Bounds3f& sceneBounds) override;
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
+  LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
+  LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   /// π R² L with the radius R of the scene's bounding sphere, known after `preprocess`.
   Rgb power() const override;
   /// Unit, world space, from any point toward the light.
@@ -31,7 +34,7 @@ class DistantLight final : public Light {
  private:
   Vector3f toLight_;
   Rgb radiance_;
-  double sceneRadius_ = 0;
+  BoundingSphere scene_;
 };
 
 }  // namespace pbrtmedia

@@ -5,7 +5,8 @@
 
 #include "base/transform.h"
 #include "lights/light.h"
-#include "lights/light_map.h"
+#include "lights/light_directions.h"
+#include "lights/sphere_map.h"
 
 namespace pbrtmedia {
 
@@ -25,14 +26,16 @@ class GoniometricLight final : public Light {
   std::optional<Point3f> deltaPosition() const override { return position_; }
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
+  LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
+  LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   Rgb power() const override;
   Point3f position() const { return position_; }
 
  private:
-  Affine3f lightFromWorld_;
+  LightDirections directions_;
   Point3f position_;
   Rgb intensity_;
-  std::optional<LightMap> map_;
+  std::optional<SphereMap> map_;  ///< with its pole on +z: y and z are exchanged
 };
 
 }  // namespace pbrtmedia

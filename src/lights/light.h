@@ -5,7 +5,6 @@
 #include <optional>
 #include <string_view>
 
-#include "accelerators/accelerator.h"
 #include "base/bounds.h"
 #include "base/ray.h"
 #include "base/vec.h"
@@ -19,9 +18,23 @@ struct LightSample {
   Rgb radiance;  ///< arriving along -wi, before visibility and transmittance
   Vector3f wi;   ///< unit, from the reference point to the light
   float distance =
-      kInfinity;       ///< world length of the shadow segment; infinity for distant and infinite lights
-  float pdf = 0;       ///< solid angle; 1 for delta lights; 0: no sample
-  PrimitiveId target;  ///< the emitting primitive, to be left out of the visibility test (area lights)
+      kInfinity;  ///< world length of the shadow segment; infinity for distant and infinite lights
+  float pdf = 0;  ///< solid angle; 1 for delta lights; 0: no sample
+};
+
+/// Densities of a ray that a light sends out.
+struct LePdf {
+  float position = 0;   ///< 1/area, on the light or on the disc that faces a scene lit from infinity
+  float direction = 0;  ///< 1/solid angle
+};
+
+/// A ray that a light sends out: the power it stands for is radiance |normal·d| / (pdf.position
+/// pdf.direction).
+struct LeSample {
+  Ray ray;  ///< world space, unit direction; starts on the light, or outside the scene's bounding sphere
+  Normal3f normal;  ///< where it starts: that of hits on a surface, otherwise the ray's direction
+  Rgb radiance;  ///< along the ray; intensity (W/sr) of a light at one point, irradiance of a distant light
+  LePdf pdf;     ///< 1 where there is no choice (delta lights); a direction of 0: no sample
 };
 
 /// A source of light, world space. Immutable after `preprocess`, thread-safe.
@@ -55,6 +68,19 @@ class Light {
   /// Solid-angle density of `sample(reference, .)` for unit `wi`. `hit`: the light's own surface point found
   /// along wi (area lights), null for lights at infinity. 0 for delta lights.
   virtual float pdf(Point3f reference, Vector3f wi, const SurfaceInteraction* hit) const = 0;
+  /// A ray from the light into the scene. `uPosition`, `uDirection`: uniform in the unit square. Found by
+  /// position and direction together, not toward a point: what `sample` sees of a light is sent out here,
+  /// also of a light that is split. None of light that a medium emits.
+  virtual LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const {
+    (void)uPosition, (void)uDirection, (void)time;
+    return {};
+  }
+  /// Densities with which `sampleLe` finds a ray that starts at a point of the light where the normal (of
+  /// hits) is `normal`, or anywhere outside the scene for lights at infinity. 0 for what is no choice.
+  virtual LePdf pdfLe(const Ray& ray, Normal3f normal) const {
+    (void)ray, (void)normal;
+    return {};
+  }
   /// Radiance of a ray that left the scene along unit `direction`; black except for infinite lights.
   virtual Rgb background(Vector3f direction) const {
     (void)direction;

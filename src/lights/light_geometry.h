@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/bounds.h"
@@ -24,16 +23,31 @@ inline LightSample sampleTowardPoint(Point3f position, Point3f reference) {
   return s;
 }
 
-/// Map coordinates of a direction (any length) whose pole is +z: u = atan2(y, x)/2π in [0, 1), v = θ/π in [0,
-/// 1] with θ from +z. Accurate next to the poles, where acos is not.
-inline Point2f latLong(Vector3f w) {
-  const float u = std::atan2(w.y, w.x) * kInv2Pi;
-  return {std::min(u < 0 ? u + 1 : u, kOneMinusEpsilon), std::atan2(std::hypot(w.x, w.y), w.z) * kInvPi};
+/// A ray from a light at one point along a unit direction.
+inline LeSample emissionFromPoint(Point3f position, Vector3f direction, float time, Rgb intensity,
+                                  float pdfDirection) {
+  return {.ray = {.o = position, .d = direction, .time = time},
+          .normal = direction,
+          .radiance = intensity,
+          .pdf = {.position = 1, .direction = pdfDirection}};
 }
 
-/// Radius of the sphere around the scene's box; 0 for an empty scene.
-inline double boundingSphereRadius(const Bounds3f& box) {
-  return box.isEmpty() ? 0 : length(Vec3d(box.max) - Vec3d(box.min)) / 2;
-}
+/// The sphere around the scene's box. Light from infinity enters it through discs of its radius that face the
+/// light: every line that meets the scene crosses the disc of its direction.
+class BoundingSphere {
+ public:
+  BoundingSphere() = default;  ///< of an empty scene: radius 0, nothing enters
+  explicit BoundingSphere(const Bounds3f& box);
+
+  double radius() const { return radius_; }
+  /// A ray along unit `direction` that starts at a uniform point of the disc before the sphere.
+  Ray entering(Vector3f direction, Point2f u, float time) const;
+  /// Area density of `entering` for a ray of unit direction, wherever on its line it starts.
+  float pdfEntering(const Ray& ray) const;
+
+ private:
+  Vec3d centre_{};
+  double radius_ = 0;
+};
 
 }  // namespace pbrtmedia

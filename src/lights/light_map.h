@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <vector>
+
 #include "base/vec.h"
 #include "image/image.h"
 #include "image/mip_map.h"
@@ -24,6 +26,9 @@ class LightMap {
   Rgb lookup(Point2f uv) const { return pyramid_.bilinear(uv); }
   /// The coarsest pyramid texel: the mean.
   Rgb mean() const { return pyramid_.coarsest(); }
+  /// What samples by the picture go by: channel mean of |factor · picture| averaged over the cell of each
+  /// texel, x fastest. Positive wherever the interpolated picture is not black.
+  std::vector<float> cellMeans(Rgb factor) const;
   /// width / height of the picture before resampling.
   float aspect() const { return aspect_; }
 

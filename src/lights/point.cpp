@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "lights/point.h"
 
+#include "base/warp.h"
 #include "lights/light_geometry.h"
 
 namespace pbrtmedia {
@@ -13,6 +14,14 @@ LightSample PointLight::sample(Point3f reference, Point2f) const {
   LightSample s = sampleTowardPoint(position_, reference);
   s.radiance *= intensity_;
   return s;
+}
+
+LeSample PointLight::sampleLe(Point2f, Point2f uDirection, float time) const {
+  return emissionFromPoint(position_, sampleUniformSphere(uDirection), time, intensity_, pdfUniformSphere());
+}
+
+LePdf PointLight::pdfLe(const Ray&, Normal3f) const {
+  return {.position = 0, .direction = pdfUniformSphere()};
 }
 
 Rgb PointLight::power() const { return 4 * kPi * intensity_; }

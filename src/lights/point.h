@@ -21,6 +21,8 @@ class PointLight final : public Light {
   std::optional<Point3f> deltaPosition() const override { return position_; }
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
+  LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
+  LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   Rgb power() const override;
   Point3f position() const { return position_; }
 

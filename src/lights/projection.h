@@ -3,8 +3,10 @@
 
 #include <optional>
 
+#include "base/distribution.h"
 #include "base/transform.h"
 #include "lights/light.h"
+#include "lights/light_directions.h"
 #include "lights/light_map.h"
 
 namespace pbrtmedia {
@@ -29,6 +31,8 @@ class ProjectionLight final : public Light {
   void clipToLit(Vec3d o, Vec3d d, double& tMin, double& tMax) const override;
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
+  LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
+  LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   Rgb power() const override;
   Point3f position() const { return position_; }
 
@@ -36,12 +40,20 @@ class ProjectionLight final : public Light {
   /// Factor on the intensity toward light-space direction `w` (any length).
   Rgb projected(Vector3f w) const;
 
-  Affine3f lightFromWorld_;
+  /// Solid-angle density of `sampleLe` at a unit world direction.
+  float directionPdf(Vector3f d) const;
+  /// Light-space direction, with z = 1, of a point of the window in map coordinates.
+  Vector3f throughWindow(Point2f uv) const;
+  /// Map coordinates in the window of light-space direction `w`; nothing outside of it.
+  std::optional<Point2f> windowPoint(Vector3f w) const;
+
+  LightDirections directions_;
   Point3f position_;
   Rgb intensity_;
   float tanHalfFov_;
   Vector2f halfWindow_{1, 1};  ///< screen units, in x and y
   std::optional<LightMap> map_;
+  Distribution2D cells_;  ///< of the light through parts of the window: the texels, if there is a map
 };
 
 }  // namespace pbrtmedia

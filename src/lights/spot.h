@@ -3,6 +3,7 @@
 
 #include "base/transform.h"
 #include "lights/light.h"
+#include "lights/light_directions.h"
 
 namespace pbrtmedia {
 
@@ -26,17 +27,28 @@ class SpotLight final : public Light {
   void clipToLit(Vec3d o, Vec3d d, double& tMin, double& tMax) const override;
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
+  LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
+  LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   Rgb power() const override;
   Point3f position() const { return position_; }
   /// Fraction of the intensity at `cosine` of the angle from the axis: 0 outside the cone, 1 inside the ring.
   double falloff(double cosine) const;
 
  private:
+  /// Cosine of the angle from the axis of a world-space direction of any length.
+  double cosineOf(Vec3d world) const;
+  /// Of `sampleLe` for unit world-space `d`, where the falloff is `factor`.
+  float directionPdf(Vector3f d, double factor) const;
+
   Transform lightFromWorld_;
+  LightDirections directions_;
   Point3f position_;
   Vec3d axis_;  ///< unit, light space
   Rgb intensity_;
   double cosTotal_, cosFalloffStart_;
+  /// Solid angles in light space over 2π: of the part of full intensity, and of the ring times its mean
+  /// falloff.
+  double innerShare_, ringShare_;
 };
 
 }  // namespace pbrtmedia

@@ -169,13 +169,15 @@ ShapeSample Quadric::sampleAt(Vec3d pObject) const {
 
 ShapeSample Quadric::sample(std::uint32_t, Point2f u) const { return sampleAt(sampleObject(Point2d(u))); }
 
-float Quadric::pdf(std::uint32_t, Point3f reference, Vector3f, Point3f p, Normal3f n) const {
+double Quadric::areaDensity(std::uint32_t, Normal3f n) const {
   // The unit object normal is M^T n / |M^T n|, so the area scale there is |det M| / |M^T n|.
-  const Vec3d nObject = objectFromWorld_.normal(Vec3d(n));
-  const double areaDensity = length(nObject) / (objectArea() * volumeScale_);
+  return length(objectFromWorld_.normal(Vec3d(n))) / (objectArea() * volumeScale_);
+}
+
+float Quadric::pdf(std::uint32_t primitive, Point3f reference, Vector3f, Point3f p, Normal3f n) const {
   const Vec3d toPoint = Vec3d(p) - Vec3d(reference);
   const double d = length(toPoint);
-  const auto pdf = static_cast<float>(areaDensity * d * d * d / absDot(Vec3d(n), toPoint));
+  const auto pdf = static_cast<float>(areaDensity(primitive, n) * d * d * d / absDot(Vec3d(n), toPoint));
   return std::isfinite(pdf) ? pdf : 0;
 }
 

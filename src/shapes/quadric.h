@@ -38,6 +38,7 @@ class Quadric : public Shape, public UserGeometry {
   double area(std::uint32_t primitive) const final;
   using Shape::sample;
   ShapeSample sample(std::uint32_t primitive, Point2f u) const final;
+  double areaDensity(std::uint32_t primitive, Normal3f n) const final;
   float pdf(std::uint32_t primitive, Point3f reference, Vector3f wi, Point3f p, Normal3f n) const override;
 
  protected:

@@ -22,8 +22,10 @@ ShapeSample Shape::sample(std::uint32_t primitive, Point3f reference, Point2f u)
   return s;
 }
 
+double Shape::areaDensity(std::uint32_t primitive, Normal3f) const { return 1 / area(primitive); }
+
 float Shape::pdf(std::uint32_t primitive, Point3f reference, Vector3f, Point3f p, Normal3f n) const {
-  return solidAngleDensity(1 / area(primitive), reference, p, n);
+  return solidAngleDensity(areaDensity(primitive, n), reference, p, n);
 }
 
 }  // namespace pbrtmedia

@@ -50,6 +50,8 @@ class Shape {
   virtual double area(std::uint32_t primitive) const = 0;
   /// Uniform by area; pdf in area measure.
   virtual ShapeSample sample(std::uint32_t primitive, Point2f u) const = 0;
+  /// Density of that, 1/length², at a point of the surface where the unit normal is `n`, either way.
+  virtual double areaDensity(std::uint32_t primitive, Normal3f n) const;
   /// Toward `reference`, pdf in solid angle there. Default: by area, converted.
   virtual ShapeSample sample(std::uint32_t primitive, Point3f reference, Point2f u) const;
   /// Solid-angle density with which `sample(primitive, reference, .)` finds the surface point (p, n) that was

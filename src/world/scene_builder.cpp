@@ -72,10 +72,6 @@ Medium* SceneBuilder::addMedium(std::unique_ptr<Medium> medium) {
   return parts_->media.back();
 }
 
-std::uint32_t SceneBuilder::nextGeometry() const {
-  return static_cast<std::uint32_t>(parts_->entries.size());
-}
-
 void SceneBuilder::addPrimitive(Primitive primitive) {
   const std::uint32_t geometry = parts_->top.add(std::move(primitive));
   CHECK_EQ(geometry, parts_->entries.size());

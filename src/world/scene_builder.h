@@ -33,8 +33,6 @@ class SceneBuilder {
   /// Owns a medium that the scene tells of (Scene::media).
   Medium* addMedium(std::unique_ptr<Medium> medium);
 
-  /// The PrimitiveId::geometry that the next directly placed primitive will have.
-  std::uint32_t nextGeometry() const;
   /// Places a shape directly. Its area lights illuminate and get consecutive numbers in Scene::lights().
   void addPrimitive(Primitive primitive);
   /// Records an object for instances; its area lights are visible but do not illuminate. May be empty.

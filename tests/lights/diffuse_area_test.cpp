@@ -20,8 +20,6 @@ using test::expectRgb;
 using test::kMaxAbsZ;
 using test::zTest;
 
-constexpr PrimitiveId kTarget{.instance = PrimitiveId::kNone, .geometry = 7, .primitive = 0};
-
 /// A disk of radius 1 at height 2 that faces down.
 const Disk& ceiling() {
   static const Disk disk({.height = 2}, {.worldFromObject = Transform(), .reverseOrientation = true});
@@ -37,7 +35,7 @@ TriangleMesh oneTriangle() {
 
 TEST(DiffuseAreaLight, IrradianceUnderADiskIsPiTimesSineSquared) {
   // On the axis at distance h of a parallel disk of radius R: E = π L R² / (R² + h²) = 3π/5.
-  const DiffuseAreaLight light(ceiling(), 0, kTarget, {.radiance = Rgb(3)});
+  const DiffuseAreaLight light(ceiling(), 0, {.radiance = Rgb(3)});
   const test::ZTest z =
       zTest(test::irradianceByLight(light, {0, 0, 0}, {0, 0, 1}, 1, 200000), 3 * std::numbers::pi / 5);
   EXPECT_LT(std::abs(z.z()), kMaxAbsZ) << z;
@@ -46,7 +44,7 @@ TEST(DiffuseAreaLight, IrradianceUnderADiskIsPiTimesSineSquared) {
 TEST(DiffuseAreaLight, IrradianceOfASphereIsPiTimesSineSquared) {
   // A sphere of radius R whose centre lies at distance d on the normal: E = π L (R/d)², here π/9.
   const Sphere sphere(Sphere::Params{}, {.worldFromObject = Transform::translate({0, 3, 0})});
-  const DiffuseAreaLight light(sphere, 0, kTarget, {});
+  const DiffuseAreaLight light(sphere, 0, {});
   const test::ZTest z =
       zTest(test::irradianceByLight(light, {0, 0, 0}, {0, 1, 0}, 2, 100000), std::numbers::pi / 9);
   EXPECT_LT(std::abs(z.z()), kMaxAbsZ) << z;
@@ -64,13 +62,13 @@ TEST(DiffuseAreaLight, IrradianceOfATriangleIsLambertsFormula) {
     const Vec3d b = normalize(Vec3d(corners[(i + 1) % 3]) - Vec3d(p));
     truth += 0.5 * std::acos(dot(a, b)) * normalize(cross(a, b)).z;
   }
-  const DiffuseAreaLight light(mesh, 0, kTarget, {.twoSided = true});
+  const DiffuseAreaLight light(mesh, 0, {.twoSided = true});
   const test::ZTest z = zTest(test::irradianceByLight(light, p, {0, 0, 1}, 3, 200000), std::abs(truth));
   EXPECT_LT(std::abs(z.z()), kMaxAbsZ) << z;
 }
 
 TEST(DiffuseAreaLight, EmitsOnTheSideOfTheNormalOnly) {
-  const DiffuseAreaLight light(ceiling(), 0, kTarget, {.radiance = {1, 2, 3}});
+  const DiffuseAreaLight light(ceiling(), 0, {.radiance = {1, 2, 3}});
   EXPECT_EQ(light.emitted({0, 0, -1}, {0, 0.6f, -0.8f}), (Rgb{1, 2, 3}));
   EXPECT_TRUE(light.emitted({0, 0, -1}, {0, 0.6f, 0.8f}).isBlack());
   EXPECT_TRUE(light.emitted({0, 0, -1}, {1, 0, 0}).isBlack()) << "along the surface";
@@ -79,20 +77,19 @@ TEST(DiffuseAreaLight, EmitsOnTheSideOfTheNormalOnly) {
 }
 
 TEST(DiffuseAreaLight, EmitsOnBothSidesWhenTwoSided) {
-  const DiffuseAreaLight light(ceiling(), 0, kTarget, {.radiance = {1, 2, 3}, .twoSided = true});
+  const DiffuseAreaLight light(ceiling(), 0, {.radiance = {1, 2, 3}, .twoSided = true});
   EXPECT_EQ(light.emitted({0, 0, -1}, {0, 0, 1}), (Rgb{1, 2, 3}));
   EXPECT_EQ(light.sample({0, 0, 5}, {0.3f, 0.6f}).radiance, (Rgb{1, 2, 3}));
   EXPECT_EQ(light.sample({0, 0, 0}, {0.3f, 0.6f}).radiance, (Rgb{1, 2, 3}));
 }
 
-TEST(DiffuseAreaLight, SamplesEndOnTheShapeAndNameThePrimitive) {
-  const DiffuseAreaLight light(ceiling(), 0, kTarget, {});
+TEST(DiffuseAreaLight, SamplesEndOnTheShape) {
+  const DiffuseAreaLight light(ceiling(), 0, {});
   const Point3f reference{4, -2, 0.5f};
   Rng rng(4);
   for (int i = 0; i < 200; ++i) {
     const LightSample s = light.sample(reference, {rng.uniform(), rng.uniform()});
     ASSERT_GT(s.pdf, 0);
-    EXPECT_EQ(s.target, kTarget);
     const Point3f p = reference + s.distance * s.wi;
     EXPECT_NEAR(p.z, 2, 2e-6f);
     EXPECT_LE(std::hypot(p.x, p.y), 1 + 2e-6f);
@@ -105,7 +102,7 @@ TEST(DiffuseAreaLight, PdfOfAHitEqualsThatOfTheSample) {
   const Point3f reference{0.5f, -0.25f, 0.1f};
   for (const Shape* shape : {static_cast<const Shape*>(&sphere), static_cast<const Shape*>(&mesh),
                              static_cast<const Shape*>(&ceiling())}) {
-    const DiffuseAreaLight light(*shape, 0, kTarget, {});
+    const DiffuseAreaLight light(*shape, 0, {});
     Rng rng(6);
     for (int i = 0; i < 200; ++i) {
       const Point2f u{rng.uniform(), rng.uniform()};
@@ -131,7 +128,7 @@ std::ostream& operator<<(std::ostream& os, const Sides& s) {
 
 /// `p`: a point of the surface with the unit vector `outward` across it, of a shape that is alone there.
 Sides sidesOf(const Shape& shape, Point3f p, Vector3f outward) {
-  const DiffuseAreaLight light(shape, 0, kTarget, {});
+  const DiffuseAreaLight light(shape, 0, {});
   const test::Probe probe(shape);
   Sides sides{0, 0};
   for (const int side : {1, -1}) {
@@ -201,9 +198,8 @@ TEST(DiffuseAreaLight, KnowsTheAreaThatPbrtSamplesInItsPlace) {
 }
 
 TEST(DiffuseAreaLight, PowerIsPiTimesAreaTimesRadiance) {
-  expectRgb(DiffuseAreaLight(ceiling(), 0, kTarget, {.radiance = {1, 2, 3}}).power(),
-            kPi * kPi * Rgb{1, 2, 3});
-  const DiffuseAreaLight both(ceiling(), 0, kTarget, {.radiance = {1, 2, 3}, .twoSided = true, .samples = 9});
+  expectRgb(DiffuseAreaLight(ceiling(), 0, {.radiance = {1, 2, 3}}).power(), kPi * kPi * Rgb{1, 2, 3});
+  const DiffuseAreaLight both(ceiling(), 0, {.radiance = {1, 2, 3}, .twoSided = true, .samples = 9});
   expectRgb(both.power(), 2 * kPi * kPi * Rgb{1, 2, 3});
   EXPECT_EQ(both.sampleCount(), 9);
 }

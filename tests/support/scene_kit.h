@@ -80,7 +80,7 @@ class SceneKit {
     std::vector<AreaLight*> lights;
     for (std::uint32_t i = 0; i < shape->primitiveCount(); ++i) {
       lights.push_back(builder.own(std::make_unique<DiffuseAreaLight>(
-          *shape, i, PrimitiveId{PrimitiveId::kNone, builder.nextGeometry(), i},
+          *shape, i,
           DiffuseAreaLight::Params{.radiance = radiance, .twoSided = twoSided, .samples = samples})));
     }
     return lights;
