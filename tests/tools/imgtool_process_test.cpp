@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -275,6 +276,29 @@ TEST_F(Imgtool, DiffWritesItsImageOnlyWhenTheImagesDiffer) {
   EXPECT_EQ(run("diff a.exr b.exr --outfile d.exr").status, 1);
   EXPECT_EQ(read("d.exr").rgb(1, 1), Rgb(0.5f));
   EXPECT_EQ(run("diff a.exr b.exr --outfile d.jpg").status, 1);
+}
+
+TEST_F(Imgtool, DiffWritesTheMapOfFlipErrors) {
+  write("a.exr", ramp(8, 8));
+  Image b = ramp(8, 8);
+  b.at(2, 5, 1) = 0;
+  write("b.exr", b);
+  EXPECT_EQ(run("diff a.exr a.exr --flip-map same.exr").status, 0);
+  EXPECT_EQ(read("same.exr").at(2, 5, 0), 0);
+  const ProcessResult result = run("diff --json a.exr b.exr --flip-map map.exr");
+  EXPECT_EQ(result.status, 1);
+  const Image map = read("map.exr");
+  double sum = 0, largest = 0;
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      sum += map.at(x, y, 0);
+      largest = std::max<double>(largest, map.at(x, y, 0));
+    }
+  }
+  EXPECT_GT(largest, 0);
+  EXPECT_EQ(map.at(2, 5, 0), largest);
+  EXPECT_NEAR(json::parse(result.output)["flip"].get<double>(), sum / 64, 1e-7);
+  EXPECT_EQ(run("diff a.exr b.exr --flip-map map.jpg").status, 1);
 }
 
 TEST_F(Imgtool, DiffNeverPassesWhatCannotBeCompared) {

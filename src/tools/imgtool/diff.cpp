@@ -126,7 +126,9 @@ Image absoluteDifference(const Image& test, const Image& reference) {
 }  // namespace
 
 int runDiff(const DiffOptions& options) {
-  if (!options.outfile.empty()) requireWritable(options.outfile);
+  for (const std::string& file : {options.outfile, options.flipMap}) {
+    if (!file.empty()) requireWritable(file);
+  }
   const LoadedImage test = loadLinear(options.test), reference = loadLinear(options.reference);
   const bool bothExr = test.format == ImageFormat::Exr && reference.format == ImageFormat::Exr;
   const auto result = compareImages(test.image, reference.image, options.epsilon);
@@ -139,9 +141,11 @@ int runDiff(const DiffOptions& options) {
   }
   const auto& difference = std::get<ImageDifference>(result);
   std::optional<double> flip;
-  if (options.flip || options.maxFlip) {
+  if (options.flip || options.maxFlip || !options.flipMap.empty()) {
     if (!test.image.hasRgb()) return reportFailure(options, "FLIP needs channels R, G, B or Y");
-    flip = flipMean(flipMap(reference.image, test.image, options.pixelsPerDegree));
+    const Image map = flipMap(reference.image, test.image, options.pixelsPerDegree);
+    flip = flipMean(map);
+    if (!options.flipMap.empty()) writeImage(options.flipMap, map, {.pixelType = PixelType::Float});
   }
   const Verdict verdict = judge(difference, flip, options);
   if (options.json) {

@@ -108,6 +108,7 @@ void addDiff(CLI::App& app, DiffOptions& o, Run& run) {
   c->add_option("--epsilon", o.epsilon, "epsilon of the relative MSE (0.01)")
       ->check(number(NumberRange::above(0)));
   c->add_flag("--flip", o.flip, "also compute LDR-FLIP of the values clamped to [0, 1]");
+  c->add_option("--flip-map", o.flipMap, "write the FLIP error of each pixel here, in [0, 1]; computes FLIP");
   c->add_option("--ppd", o.pixelsPerDegree, "pixels per degree for FLIP (67.02)")
       ->check(number(NumberRange::between(1, 1000)));
   c->add_option("--outfile", o.outfile, "write |a - b| here when the images differ");
