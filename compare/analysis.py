@@ -57,12 +57,16 @@ class SettingResult:
     slope_single: Estimate | None = None        # of renders in one piece only
     works: dict[str, Work] = field(default_factory=dict)
     ratios: dict[str, Estimate] = field(default_factory=dict)    # log(work / best work)
+    """To the best of those without bias; `tied` has no biased ones, if others are there."""
     tied: dict[str, bool] = field(default_factory=dict)
     bias: BiasFound | None = None
     flip: float | None = None
     picture: np.ndarray | None = None           # of the first repeat: one budget
     maps: Maps | None = None
     worst: list[WorstPixel] = field(default_factory=list)
+
+    def biased(self) -> bool:
+        return self.bias is not None and self.bias.seen()
 
     def total(self, axis: str) -> float | None:
         return cost_on(axis, self.entry.slices())
@@ -196,12 +200,15 @@ class SceneAnalysis:
             known = [r for r in results if axis in r.works]
             if not known:
                 continue
-            best, ties = tied_with_best([r.works[axis] for r in known])
-            for result, tie in zip(known, ties, strict=True):
+            # A biased setting may well have little variance: it is measured, but it is not the best.
+            fair = [r for r in known if not r.biased()] or known
+            best, ties = tied_with_best([r.works[axis] for r in fair])
+            for result, tie in zip(fair, ties, strict=True):
                 result.tied[axis] = tie
-                result.ratios[axis] = log_ratio(result.works[axis], known[best].works[axis])
+            for result in known:
+                result.ratios[axis] = log_ratio(result.works[axis], fair[best].works[axis])
         axis = self.budget_axis()
-        results.sort(key=lambda r: r.works[axis].value() if axis in r.works else math.inf)
+        results.sort(key=lambda r: (r.biased(), r.works[axis].value() if axis in r.works else math.inf))
         return SceneResult(self.name, self.reference, self.source, results, failures, self.window(results))
 
     def window(self, results: list[SettingResult]) -> tuple[int, int, int, int]:

@@ -6,6 +6,7 @@ import math
 from .analysis import MOST_BIAS_Z, SceneResult, SettingResult
 from .case import Case
 from .intervals import Estimate, student_quantile
+from .maps import WorstPixel
 from .plots import style
 from .replay import replay
 
@@ -33,8 +34,9 @@ def ratio_cell(result: SettingResult, axis: str, unit: str) -> str:
     else:
         width = min(700.0, student_quantile(ratio.freedom) * ratio.error)
         ends = f"{math.exp(ratio.value - width):.3g} – {math.exp(ratio.value + width):.3g}"
-        text, kind = f"{math.exp(ratio.value):.3g} <small>{ends}</small>", "tie" if result.tied[axis] else ""
-        text += " <em>tie</em>" if result.tied[axis] else ""
+        tied = result.tied.get(axis, False)
+        text, kind = f"{math.exp(ratio.value):.3g} <small>{ends}</small>", "tie" if tied else ""
+        text += " <em>tie</em>" if tied else ""
     return cell(text, work.value(), title, kind)
 
 
@@ -52,7 +54,8 @@ def bias_cells(result: SettingResult, unit: str) -> str:
     assert bias is not None
     signed = bias.signed
     text = f"{signed.value:+.2g} <small>± {signed.error:.1g} (z {signed.z():+.1f})</small>" if math.isfinite(signed.z()) else f"{signed.value:+.2g}"
-    cells = cell(text, abs(signed.value), "mean of all pixels less that of the reference, ± one standard error", "bad" if abs(signed.z()) > MOST_BIAS_Z else "")
+    cells = cell(text, abs(signed.value), "mean of all pixels less that of the reference, ± one standard error",
+                 "bad" if abs(signed.z()) > MOST_BIAS_Z else "")
     squared = bias.squared
     if squared.z() > MOST_BIAS_Z:
         text = f"{math.sqrt(squared.value):.2g}"
@@ -77,10 +80,10 @@ def cost_cells(result: SettingResult) -> str:
 
 
 def summary_table(case: Case, scene: SceneResult, order: dict[str, int]) -> str:
-    """Best first, by variance x what the budget is of."""
+    """Best first, by variance x what the budget is of; biased settings last."""
     unit = {"seconds": "s", "lookups": "look-ups", "samples": "spp"}[case.equal]
     clock = "CPU s" if case.clock == "cpu" else "s"
-    heads = (("setting", ""), (f"variance × {clock}", "relative to the best; 95 % interval of the ratio. Time to the same error"),
+    heads = (("setting", ""), (f"variance × {clock}", "relative to the best without bias; 95 % interval of the ratio. Time to the same error"),
              ("variance × look-ups", "relative to the best; look-ups to the same error"),
              ("µs / sample", "CPU microseconds of a camera sample"), ("look-ups / sample", ""),
              ("variance of a sample", "mean over pixels and channels of the variance of an image of one sample per pixel"),
@@ -92,11 +95,12 @@ def summary_table(case: Case, scene: SceneResult, order: dict[str, int]) -> str:
     for result in scene.results:
         colour, _ = style(order[result.name])
         last = result.curve[-1]
-        rows.append(f'<tr data-setting="{order[result.name]}"><th><i style="background:{colour}"></i>{html.escape(result.name)}</th>'
+        mark = ' <em class="bad">biased</em>' if result.biased() else ""
+        rows.append(f'<tr data-setting="{order[result.name]}"><th><i style="background:{colour}"></i>{html.escape(result.name)}{mark}</th>'
                     + ratio_cell(result, case.clock, clock) + ratio_cell(result, "lookups", "look-ups") + cost_cells(result) + slope_cell(result.slope)
                     + slope_cell(result.slope_single) + bias_cells(result, unit)
                     + cell(f"{last.errors['mse'].value:.3g}", last.errors["mse"].value)
-                    + cell("–" if result.flip is None else f"{result.flip:.4f}", result.flip) + "</tr>")
+                    + cell("–" if result.flip is None else f"{result.flip:.3f}", result.flip) + "</tr>")
     head = "".join(f'<th title="{html.escape(title)}">{html.escape(text)}</th>' for text, title in heads)
     return f'<div class="wide"><table class="sortable"><thead><tr>{head}</tr></thead><tbody>{"".join(rows)}</tbody></table></div>'
 
@@ -105,13 +109,17 @@ def colour_text(values: tuple[float, ...]) -> str:
     return " ".join(f"{v:.4g}" for v in values)
 
 
+def worst_row(scene: SceneResult, result: SettingResult, worst: WorstPixel) -> str:
+    cells = (f"{scene.window[0] + worst.x}, {scene.window[1] + worst.y}", f"{100 * worst.share:.3g} %", colour_text(worst.value),
+             colour_text(worst.reference), str(worst.slice.seed), f"<code>{html.escape(replay(result, worst, scene.window))}</code>")
+    return "<tr>" + "".join(f"<td>{c}</td>" for c in cells) + "</tr>"
+
+
 def worst_table(scene: SceneResult) -> str:
     """For each setting the pixels with most of the squared error of all slices, and the commands that render them again."""
     parts = []
     for result in scene.results:
-        rows = "".join(
-            f"<tr><td>{scene.window[0] + w.x}, {scene.window[1] + w.y}</td><td>{100 * w.share:.3g} %</td><td>{colour_text(w.value)}</td><td>{colour_text(w.reference)}</td><td>{w.slice.seed}</td>"
-            f"<td><code>{html.escape(replay(result, w, scene.window))}</code></td></tr>" for w in result.worst)
+        rows = "".join(worst_row(scene, result, w) for w in result.worst)
         share = sum(w.share for w in result.worst)
         parts.append(f"<details><summary>{html.escape(result.name)}: the worst {len(result.worst)} have {100 * share:.3g} % of the squared error</summary>"
                      f'<div class="wide"><table><thead><tr><th>pixel</th><th>share</th><th>worst slice</th><th>reference</th><th>its seed</th>'

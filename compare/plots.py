@@ -61,9 +61,9 @@ def draw_setting(axes: Axes, result: SettingResult, axis: str, metric: str, inde
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def tick_text(value: float, _: int) -> str:
+def tick_text(value: float, powers: bool) -> str:
     exponent = math.floor(math.log10(value) + 1e-9)
-    if -3 < exponent < 4:
+    if -3 < exponent < 4 and not powers:
         return f"{value:g}"
     factor = round(value / 10.0**exponent, 1)
     return ("" if factor == 1 else f"{factor:g}·") + "10" + str(exponent).translate(SUPERSCRIPTS)
@@ -77,7 +77,7 @@ def plain_ticks(line: Axis, low: float, high: float) -> None:
     step = max(1, round(span / 8))
     line.set_major_locator(FixedLocator([f * 10.0**d for d in decades for f in factors if d % step == 0 and low <= f * 10.0**d <= high]))
     line.set_minor_locator(NullLocator())
-    line.set_major_formatter(FuncFormatter(tick_text))
+    line.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value, len(factors) == 1)))
 
 
 def draw_guides(axes: Axes, metric: str) -> None:

@@ -14,7 +14,7 @@ import matplotlib
 import numpy as np
 
 from . import plots
-from .analysis import AXES, SceneResult
+from .analysis import AXES, MOST_BIAS_Z, SceneResult
 from .case import Case
 from .intervals import student_quantile
 from .page_table import summary_table, worst_table
@@ -65,16 +65,20 @@ def first_exposure(image: np.ndarray) -> float:
     return min(0.0, -math.ceil(4 * math.log2(bright)) / 4) if bright > 0 else 0.0
 
 
+FIXED_SPANS = {"flip": [0.0, 1.0], "bias_z": [-MOST_BIAS_Z, MOST_BIAS_Z]}
+
+
 def pictures(scene: SceneResult, order: dict[str, int]) -> dict[str, Any]:
     """What the viewer of a scene shows."""
     height, width = scene.reference.image.shape[:2]
-    out: dict[str, Any] = {"width": width, "height": height, "exposure": first_exposure(scene.reference.image), "images": [{"name": "reference", "data": packed(scene.reference.image)}], "maps": []}
+    out: dict[str, Any] = {"width": width, "height": height, "exposure": first_exposure(scene.reference.image), "maps": [],
+                           "images": [{"name": "reference", "data": packed(scene.reference.image)}]}
     for result in scene.results:
         assert result.picture is not None
         out["images"].append({"name": result.name, "data": packed(result.picture), "colour": plots.style(order[result.name])[0]})
     for key, title, words, kind in MAPS:
         all_maps = [getattr(r.maps, key) for r in scene.results]
-        span = [0.0, 1.0] if kind == "unit" else span_of(all_maps, kind == "log")
+        span = FIXED_SPANS.get(key) or span_of(all_maps, kind == "log")
         out["maps"].append({"key": key, "title": title, "words": words, "kind": kind, "span": span,
                             "data": [packed(logarithms(m) if kind == "log" else m) for m in all_maps]})
     return out

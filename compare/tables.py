@@ -68,8 +68,9 @@ def point_json(point: CurvePoint) -> dict[str, Any]:
 def setting_json(scene: SceneResult, result: SettingResult) -> dict[str, Any]:
     out = summary_row(scene, result)
     out["curve"] = [point_json(p) for p in result.curve]
-    out["worstPixels"] = [{"x": scene.window[0] + w.x, "y": scene.window[1] + w.y, "share": w.share, "value": w.value, "reference": w.reference, "seed": w.slice.seed, "spp": w.slice.spp,
-                           "again": replay(result, w, scene.window)} for w in result.worst]
+    left, top, _, _ = scene.window
+    out["worstPixels"] = [{"x": left + w.x, "y": top + w.y, "share": w.share, "value": w.value, "reference": w.reference,
+                           "seed": w.slice.seed, "spp": w.slice.spp, "again": replay(result, w, scene.window)} for w in result.worst]
     return out
 
 

@@ -55,15 +55,15 @@ class Layer {
     return this.values[(y * this.width + x) * this.channels + channel];
   }
 
-  /** The picture under a look {kind, span, exposure}; drawn again only when that changed. */
-  canvas(look) {
+  /** The picture under a look {kind, span or exposure}, with the colours of `table`; drawn again only when that changed. */
+  canvas(look, table) {
     const key = JSON.stringify(look);
     if (this.drawnAs === key) return this.picture;
     this.drawnAs = key;
     this.picture = this.picture || Object.assign(document.createElement("canvas"), {width: this.width, height: this.height});
     const context = this.picture.getContext("2d"), data = context.createImageData(this.width, this.height);
     if (look.kind === "picture") this.fillPicture(data.data, 2 ** look.exposure);
-    else this.fillMap(data.data, look);
+    else this.fillMap(data.data, look.span, table);
     context.putImageData(data, 0, 0);
     return this.picture;
   }
@@ -75,8 +75,7 @@ class Layer {
     }
   }
 
-  fillMap(out, look) {
-    const table = look.table, [low, high] = look.span;
+  fillMap(out, [low, high], table) {
     for (let i = 0; i < this.values.length; ++i) {
       const at = 3 * Math.round(255 * Math.min(1, Math.max(0, (this.values[i] - low) / (high - low))));
       out[4 * i] = table[at];
@@ -98,7 +97,7 @@ class Viewer {
     this.maps = content.maps.map((map) => map.data.map((data) => new Layer(data, width, height)));
     this.view = {x: width / 2, y: height / 2, zoom: 1};
     this.mode = -1;  // a number of `maps`, -1: the pictures
-    this.exposure = content.exposure;
+    this.stops = {picture: content.exposure, map: 0};  // exposure, and how far the scale of the maps is moved
     this.layout = "grid";
     this.sides = [content.images.length > 1 ? 1 : 0, 0];
     this.split = 0.5;
@@ -132,10 +131,11 @@ class Viewer {
       select.onchange = () => { this.sides[side] = Number(select.value); this.show(); };
       return select;
     });
-    this.exposureLabel = this.element("label", tools, {textContent: "exposure"});
-    const slider = this.element("input", this.exposureLabel, {type: "range", min: -8, max: 8, step: 0.25, value: this.exposure});
-    const number = this.element("span", this.exposureLabel, {textContent: this.exposure});
-    slider.oninput = () => { this.exposure = Number(slider.value); number.textContent = slider.value; this.draw(); };
+    const label = this.element("label", tools);
+    this.stopsTitle = this.element("span", label);
+    this.slider = this.element("input", label, {type: "range", min: -8, max: 8, step: 0.25});
+    this.stopsNumber = this.element("span", label);
+    this.slider.oninput = () => { this.stops[this.kind()] = Number(this.slider.value); this.drawScale(); this.draw(); };
     const fit = this.element("button", tools, {textContent: "fit"});
     fit.onclick = () => { this.view = {x: this.size.width / 2, y: this.size.height / 2, zoom: 1}; this.draw(); };
     const close = this.element("button", tools, {textContent: "8 ×"});
@@ -153,10 +153,19 @@ class Viewer {
     return index === 0 ? null : {name, layer: this.maps[this.mode][index - 1]};
   }
 
-  look() {
-    if (this.mode < 0) return {kind: "picture", exposure: this.exposure};
+  kind() {
+    return this.mode < 0 ? "picture" : "map";
+  }
+
+  /** The ends of the scale: moved by stops as an exposure moves a picture. */
+  span() {
     const map = this.content.maps[this.mode];
-    return {kind: map.kind, span: map.span, table: undefined};
+    return map.span.map((end) => map.kind === "log" ? end - this.stops.map * Math.log10(2) : end / 2 ** this.stops.map);
+  }
+
+  look() {
+    if (this.mode < 0) return {kind: "picture", exposure: this.stops.picture};
+    return {kind: this.content.maps[this.mode].kind, span: this.span()};
   }
 
   /** Makes the panes of the mode and the layout anew. */
@@ -169,7 +178,6 @@ class Viewer {
       select.options[0].disabled = this.mode >= 0;
       select.value = this.sides[side];
     });
-    this.exposureLabel.style.visibility = this.mode < 0 ? "" : "hidden";
     const wanted = this.content.images.map((_, i) => this.shown(i)).filter((s) => s);
     await Promise.all(wanted.map((s) => s.layer.load()));
     this.panes.replaceChildren();
@@ -260,10 +268,12 @@ class Viewer {
   }
 
   drawScale() {
+    this.stopsTitle.textContent = this.mode < 0 ? "exposure" : "scale";
+    this.stopsNumber.textContent = this.slider.value = this.stops[this.kind()];
     this.scale.replaceChildren();
     if (this.mode < 0) return;
     const map = this.content.maps[this.mode], table = this.table(map.kind);
-    const ends = map.kind === "log" ? map.span.map((v) => 10 ** v) : map.span;
+    const ends = map.kind === "log" ? this.span().map((v) => 10 ** v) : this.span();
     this.element("span", this.scale, {textContent: shortNumber(ends[0])});
     const canvas = this.element("canvas", this.scale, {width: 256, height: 1}), context = canvas.getContext("2d");
     const data = context.createImageData(256, 1);
@@ -275,8 +285,7 @@ class Viewer {
 
   draw() {
     if (!this.drawn) return;
-    const look = this.look();
-    if (look.kind !== "picture") Object.defineProperty(look, "table", {value: this.table(look.kind), enumerable: false});
+    const look = this.look(), table = this.mode < 0 ? null : this.table(look.kind);
     const ratio = window.devicePixelRatio || 1;
     for (const {canvas, layers} of this.drawn) {
       const width = Math.round(canvas.clientWidth * ratio);
@@ -295,7 +304,7 @@ class Viewer {
           context.rect(side ? this.split * width : 0, 0, side ? width : this.split * width, height);
           context.clip();
         }
-        context.drawImage(layer.canvas(look), width / 2 - this.view.x * factor, height / 2 - this.view.y * factor,
+        context.drawImage(layer.canvas(look, table), width / 2 - this.view.x * factor, height / 2 - this.view.y * factor,
                           this.size.width * factor, this.size.height * factor);
         context.restore();
       });

@@ -191,6 +191,12 @@ class Judgement(WithRenderers):
         self.assertAlmostEqual(biased.bias.flat_at, 1, delta=0.3)
         self.assertGreater(biased.slope.value, fair.slope.value + 0.1)
 
+    def test_a_biased_setting_is_not_the_best(self):
+        result = self.judged(self.fake("a", sigma=0.5), self.fake("b", sigma=0.1, bias=0.05), self.fake("c", sigma=1))
+        self.assertEqual([(r.name, r.biased(), r.tied.get("cpu")) for r in result.results], [("a", False, True), ("c", False, False), ("b", True, None)])
+        self.assertEqual(result.results[0].ratios["cpu"].error, 0)
+        self.assertLess(result.results[2].ratios["cpu"].value, 0)
+
     def test_equal_renderers_tie(self):
         result = self.judged(self.fake("a"), self.fake("b"))
         self.assertEqual([r.tied["cpu"] for r in result.results], [True, True])
