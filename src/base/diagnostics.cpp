@@ -284,10 +284,6 @@ std::string Diagnostics::format() const {
   return out;
 }
 
-std::string nearestNames(std::string_view found, std::span<const std::string_view> known, std::size_t most) {
-  return join(rank(found, known), most);
-}
-
 std::string suggestion(std::string_view found, std::span<const std::string_view> known) {
   if (known.empty()) return {};
   constexpr std::size_t kMost = 8;

@@ -83,9 +83,6 @@ class Diagnostics {
   std::size_t errors_ = 0, notKept_ = 0;
 };
 
-/// "a, b, c" of the names nearest to `found` first (edit distance), then the rest, at most `most` of them.
-std::string nearestNames(std::string_view found, std::span<const std::string_view> known,
-                         std::size_t most = 8);
 /// "; did you mean \"x\"? known: …" when one name is close enough, else "; known: …"; "" without names.
 std::string suggestion(std::string_view found, std::span<const std::string_view> known);
 

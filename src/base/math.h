@@ -38,11 +38,6 @@ template <class T>
 T safeSqrt(T x) {
   return std::sqrt(x > T(0) ? x : T(0));
 }
-/// acos with the argument clamped to [-1, 1].
-template <class T>
-T safeAcos(T x) {
-  return std::acos(x < T(-1) ? T(-1) : (x > T(1) ? T(1) : x));
-}
 
 /// Smallest interval [lo, hi] that holds the real roots of a t^2 + b t + c; false when there is none.
 /// Computed without cancellation (q = -(b + sign(b) sqrt(D)) / 2). A zero `a` is solved as a linear equation.

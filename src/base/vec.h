@@ -119,11 +119,6 @@ template <class T>
 Vec3<T> abs(Vec3<T> v) {
   return {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
 }
-/// Component-wise product.
-template <class T>
-constexpr Vec3<T> hadamard(Vec3<T> a, Vec3<T> b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
 template <class T>
 constexpr T maxComponent(Vec3<T> v) {
   return std::max(v.x, std::max(v.y, v.z));

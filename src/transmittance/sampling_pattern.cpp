@@ -59,12 +59,6 @@ double shifted(double value, double shift) {
 
 }  // namespace
 
-std::optional<PatternKind> findPattern(std::string_view name) {
-  const auto at = std::find(kPatternNames.begin(), kPatternNames.end(), name);
-  if (at == kPatternNames.end()) return std::nullopt;
-  return static_cast<PatternKind>(at - kPatternNames.begin());
-}
-
 SamplingPattern::SamplingPattern(PatternKind kind, std::uint32_t count, std::uint64_t key)
     : kind_(kind), permutation_(count), key_(key) {}
 

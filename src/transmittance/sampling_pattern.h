@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "samplers/hashed_permutation.h"
@@ -20,7 +19,6 @@ enum class PatternKind {
 };
 inline constexpr std::array<std::string_view, 5> kPatternNames{"independent", "latinhypercube", "hammersley",
                                                                "halton", "scrambledhalton"};
-std::optional<PatternKind> findPattern(std::string_view name);
 
 /// `count` points in a cube of unbounded dimension: value(i, d) is the coordinate d of point i. Every
 /// decision of an estimator takes one dimension. Each coordinate alone is uniform over the keys, so an

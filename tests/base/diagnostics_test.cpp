@@ -120,13 +120,12 @@ TEST(Diagnostics, WhatIsToleratedIsAnErrorWithStrictAndSaysSo) {
 
 constexpr std::string_view kKnown[] = {"delta", "ratio", "residual-ratio"};
 
-TEST(NearestNames, SortByEditDistance) {
-  EXPECT_EQ(nearestNames("ratoi", kKnown), "ratio, delta, residual-ratio");
-  EXPECT_EQ(nearestNames("ratoi", kKnown, 1), "ratio, …");
-  EXPECT_EQ(nearestNames("x", {}), "");
+TEST(Suggestion, NamesTheEightNearest) {
+  constexpr std::string_view kMany[] = {"ninth-", "x1", "x2", "x3", "x4", "x5", "x6", "x7", "x8"};
+  EXPECT_EQ(suggestion("x", kMany), "; known: x1, x2, x3, x4, x5, x6, x7, x8, …");
 }
 
-TEST(NearestNames, SuggestionsNameAMisspelling) {
+TEST(Suggestion, NamesAMisspelling) {
   EXPECT_EQ(suggestion("ratoi", kKnown), "; did you mean \"ratio\"? known: ratio, delta, residual-ratio");
   EXPECT_EQ(suggestion("RATIO", kKnown).substr(0, 25), "; did you mean \"ratio\"? k");
   EXPECT_EQ(suggestion("zzz", kKnown).substr(0, 9), "; known: ");
@@ -134,7 +133,7 @@ TEST(NearestNames, SuggestionsNameAMisspelling) {
   EXPECT_EQ(suggestion("", kKnown).substr(0, 9), "; known: ");
 }
 
-TEST(NearestNames, HugeNamesCostLittle) {
+TEST(Suggestion, HugeNamesCostLittle) {
   EXPECT_EQ(suggestion(std::string(1 << 24, 'q'), kKnown).substr(0, 9), "; known: ");
 }
 

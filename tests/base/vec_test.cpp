@@ -18,7 +18,6 @@ TEST(Vec3, AddsScalesAndCompares) {
   EXPECT_EQ(2.0 * a, a * 2.0);
   EXPECT_EQ(a / 2.0, (Vec3d{0.5, 1, 1.5}));
   EXPECT_EQ(-a, (Vec3d{-1, -2, -3}));
-  EXPECT_EQ(hadamard(a, b), (Vec3d{4, -10, 18}));
   EXPECT_EQ(dot(a, b), 12.0);
   EXPECT_EQ(absDot(a, -b), 12.0);
   EXPECT_EQ(cross(a, b), (Vec3d{27, 6, -13}));

@@ -20,12 +20,6 @@ constexpr std::uint64_t kKey = 0x5eed;
 
 std::string_view nameOf(PatternKind kind) { return kPatternNames[static_cast<std::size_t>(kind)]; }
 
-TEST(SamplingPattern, IsFoundByItsNamesOnly) {
-  for (const PatternKind kind : kKinds) EXPECT_EQ(findPattern(nameOf(kind)), kind);
-  EXPECT_FALSE(findPattern("sobol"));
-  EXPECT_FALSE(findPattern(""));
-}
-
 TEST(SamplingPattern, IsAPureFunctionWithValuesBelowOne) {
   for (const PatternKind kind : kKinds) {
     for (const std::uint32_t count : {1u, 2u, 17u, 4096u}) {
