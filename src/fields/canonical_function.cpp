@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/math.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -16,8 +18,12 @@ using Stretch = CanonicalFunction::Stretch;
 /// Grid points per shortest period (or sigma) in the search for turning points.
 constexpr double kPointsPerPeriod = 32;
 
-double valueOf(const Stretch& s, double x) {
-  double f = s.constant + s.slope * x;
+bool isPolynomial(const Stretch& s) { return s.waves.empty() && s.bumps.empty(); }
+bool isStraight(const Stretch& s) { return isPolynomial(s) && s.square == 0 && s.cube == 0; }
+
+double valueOf(const Stretch& s, double begin, double x) {
+  const double u = x - begin;
+  double f = s.constant + u * (s.slope + u * (s.square + u * s.cube));
   for (const auto& w : s.waves) f += w.amplitude * std::cos(w.frequency * x + w.phase);
   for (const auto& b : s.bumps) {
     const double z = (x - b.centre) / b.sigma;
@@ -28,16 +34,21 @@ double valueOf(const Stretch& s, double x) {
 
 /// What no value on [from, to] exceeds (sign 1) or falls below (sign -1), rounding included: the terms of
 /// valueOf at their extremes, added in its order.
-double limitOf(const Stretch& s, double from, double to, double sign) {
+double limitOf(const Stretch& s, double begin, double from, double to, double sign) {
   const auto extreme = [&](double a, double b) { return sign > 0 ? std::max(a, b) : std::min(a, b); };
-  double f = s.constant + extreme(s.slope * from, s.slope * to);
+  // What a power of u is multiplied by, from the outermost parenthesis on; u >= 0.
+  const double u0 = from - begin, u1 = to - begin;
+  double factor = s.cube;
+  for (const double next : {s.square, s.slope}) factor = next + extreme(u0 * factor, u1 * factor);
+  double f = s.constant + extreme(u0 * factor, u1 * factor);
   for (const auto& w : s.waves) f += extreme(w.amplitude, -w.amplitude);
   for (const auto& b : s.bumps) f += extreme(b.height, 0.0);
   return f;
 }
 
-double slopeOf(const Stretch& s, double x) {
-  double f = s.slope;
+double slopeOf(const Stretch& s, double begin, double x) {
+  const double u = x - begin;
+  double f = s.slope + u * (2 * s.square + u * 3 * s.cube);
   for (const auto& w : s.waves) f -= w.amplitude * w.frequency * std::sin(w.frequency * x + w.phase);
   for (const auto& b : s.bumps) {
     const double z = (x - b.centre) / b.sigma;
@@ -47,8 +58,11 @@ double slopeOf(const Stretch& s, double x) {
 }
 
 /// Integral over [a, b] without the clamp.
-double integralOf(const Stretch& s, double a, double b) {
-  double sum = (s.constant + s.slope * (a + b) / 2) * (b - a);
+double integralOf(const Stretch& s, double begin, double a, double b) {
+  const double u = a - begin, v = b - begin;
+  double sum = (s.constant + s.slope * (u + v) / 2 + s.square * (u * u + u * v + v * v) / 3 +
+                s.cube * (u + v) * (u * u + v * v) / 4) *
+               (b - a);
   for (const auto& w : s.waves) {
     // The difference of two sines as a product: no cancellation on short intervals.
     sum += 2 * w.amplitude / w.frequency * std::sin(w.frequency * (b - a) / 2) *
@@ -64,9 +78,11 @@ double integralOf(const Stretch& s, double a, double b) {
 
 /// Size of the terms: the unit of rounding errors. 0 for straight lines, whose rounded values keep order, so
 /// that their extrema are those at the ends exactly.
-double magnitudeOf(const Stretch& s) {
-  if (s.waves.empty() && s.bumps.empty()) return 0;
-  double sum = std::abs(s.constant) + std::abs(s.slope * s.end);
+double magnitudeOf(const Stretch& s, double begin) {
+  if (isStraight(s)) return 0;
+  const double u = s.end - begin;
+  double sum =
+      std::abs(s.constant) + u * (std::abs(s.slope) + u * (std::abs(s.square) + u * std::abs(s.cube)));
   for (const auto& w : s.waves) sum += std::abs(w.amplitude);
   for (const auto& b : s.bumps) sum += std::abs(b.height);
   return sum;
@@ -86,12 +102,21 @@ double bisect(const G& g, double a, double b) {
 /// Where the derivative changes sign inside (begin, s.end), increasing.
 std::vector<double> turningPoints(const Stretch& s, double begin) {
   std::vector<double> found;
-  if (s.waves.empty() && s.bumps.empty()) return found;
+  if (isStraight(s)) return found;
+  if (isPolynomial(s)) {
+    double roots[2];
+    if (!solveQuadratic(3 * s.cube, 2 * s.square, s.slope, roots[0], roots[1])) return found;
+    for (const double u : roots) {
+      const double x = begin + u;
+      if (x > begin && x < s.end && (found.empty() || x > found.back())) found.push_back(x);
+    }
+    return found;
+  }
   double step = (s.end - begin) / 64;
   for (const auto& w : s.waves) step = std::min(step, 2 * std::numbers::pi / w.frequency / kPointsPerPeriod);
   for (const auto& b : s.bumps) step = std::min(step, b.sigma / kPointsPerPeriod);
   const auto count = static_cast<std::size_t>(std::ceil((s.end - begin) / step));
-  const auto derivative = [&](double x) { return slopeOf(s, x); };
+  const auto derivative = [&](double x) { return slopeOf(s, begin, x); };
   double a = begin, slopeA = derivative(a);
   for (std::size_t i = 1; i <= count; ++i) {
     const double b =
@@ -122,14 +147,15 @@ CanonicalFunction::CanonicalFunction(About about, std::vector<Stretch> stretches
 
 void CanonicalFunction::addPieces(std::size_t index, double begin) {
   const Stretch& s = stretches_[index];
-  isPiecewisePolynomial_ = isPiecewisePolynomial_ && s.waves.empty() && s.bumps.empty();
+  const double origin = begin;
+  isPiecewisePolynomial_ = isPiecewisePolynomial_ && isPolynomial(s);
   const std::vector<double> turns = turningPoints(s, begin);
   turns_.insert(turns_.end(), turns.begin(), turns.end());
   // Between turning points f is monotone, so it meets 0 at most once.
   std::vector<double> ends;
   double a = begin;
   const auto cutAtZero = [&](double b) {
-    const auto value = [&](double x) { return valueOf(s, x); };
+    const auto value = [&](double x) { return valueOf(s, origin, x); };
     if (value(a) * value(b) < 0) ends.push_back(bisect(value, a, b));
     a = b;
   };
@@ -138,7 +164,7 @@ void CanonicalFunction::addPieces(std::size_t index, double begin) {
   ends.push_back(s.end);
   for (const double end : ends) {
     // A function that only touches 0 is not clamped.
-    const bool isClamped = valueOf(s, begin + (end - begin) / 2) < 0;
+    const bool isClamped = valueOf(s, origin, begin + (end - begin) / 2) < 0;
     const double before =
         pieces_.empty() ? 0.0 : integralTo(pieces_.back().end);  // of the pieces made so far
     knots_.push_back(begin);
@@ -147,16 +173,16 @@ void CanonicalFunction::addPieces(std::size_t index, double begin) {
   }
 }
 
-const Stretch& CanonicalFunction::stretchAt(double x) const {
+std::size_t CanonicalFunction::stretchAt(double x) const {
   const auto at = std::upper_bound(stretches_.begin(), stretches_.end(), x,
                                    [](double value, const Stretch& s) { return value < s.end; });
-  return at == stretches_.end() ? stretches_.back() : *at;
+  return at == stretches_.end() ? stretches_.size() - 1 : static_cast<std::size_t>(at - stretches_.begin());
 }
 
 double CanonicalFunction::operator()(double x) const {
   x = std::clamp(x, 0.0, width());
-  const Stretch& s = stretches_.size() == 1 ? stretches_.front() : stretchAt(x);
-  return std::max(0.0, valueOf(s, x));
+  const std::size_t i = stretches_.size() == 1 ? 0 : stretchAt(x);
+  return std::max(0.0, valueOf(stretches_[i], beginOf(i), x));
 }
 
 double CanonicalFunction::integralTo(double x) const {
@@ -164,8 +190,10 @@ double CanonicalFunction::integralTo(double x) const {
       std::partition_point(pieces_.begin(), pieces_.end(), [&](const Piece& piece) { return piece.end < x; });
   const Piece& piece = at == pieces_.end() ? pieces_.back() : *at;
   const double end = std::clamp(x, piece.begin, piece.end);
-  return piece.integralBefore +
-         (piece.isClamped ? 0 : std::max(0.0, integralOf(stretches_[piece.stretch], piece.begin, end)));
+  return piece.integralBefore + (piece.isClamped
+                                     ? 0
+                                     : std::max(0.0, integralOf(stretches_[piece.stretch],
+                                                                beginOf(piece.stretch), piece.begin, end)));
 }
 
 CanonicalFunction::Range CanonicalFunction::range(double a, double b) const {
@@ -174,10 +202,10 @@ CanonicalFunction::Range CanonicalFunction::range(double a, double b) const {
   for (const Stretch& s : stretches_) {
     const double from = std::max(a, begin), to = std::min(b, s.end);
     if (from <= to) {
-      const double slack = 8 * std::numeric_limits<double>::epsilon() * magnitudeOf(s);
-      const double least = limitOf(s, from, to, -1), most = limitOf(s, from, to, 1);
+      const double slack = 8 * std::numeric_limits<double>::epsilon() * magnitudeOf(s, begin);
+      const double least = limitOf(s, begin, from, to, -1), most = limitOf(s, begin, from, to, 1);
       const auto include = [&](double x) {
-        const double value = valueOf(s, x);
+        const double value = valueOf(s, begin, x);
         range.min = std::min(range.min, std::max({0.0, value - slack, least}));
         range.max = std::max(range.max, std::max(0.0, std::min(value + slack, most)));
       };

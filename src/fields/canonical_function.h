@@ -11,8 +11,9 @@
 namespace pbrtmedia {
 
 /// A one-dimensional density f(x) >= 0 on [0, width()] whose integral and extrema are known exactly: the test
-/// functions of the papers. It is glued from stretches, on each of which
-///   f(x) = max(0, constant + slope x + sum of amplitude cos(frequency x + phase)
+/// functions of the papers, tables, and lines through volumes. It is glued from stretches, on each of which,
+/// with u the distance from where it begins,
+///   f(x) = max(0, constant + slope u + square u^2 + cube u^3 + sum of amplitude cos(frequency x + phase)
 ///                + sum of height exp(-(x - centre)^2 / (2 sigma^2))).
 /// At a jump the value of the stretch that begins there counts. Immutable, thread-safe.
 class CanonicalFunction {
@@ -25,7 +26,7 @@ class CanonicalFunction {
   };
   struct Stretch {
     double end;  ///< where the next stretch begins; ends increase
-    double constant = 0, slope = 0;
+    double constant = 0, slope = 0, square = 0, cube = 0;
     std::vector<Wave> waves = {};
     std::vector<Bump> bumps = {};
   };
@@ -54,7 +55,7 @@ class CanonicalFunction {
   Range range() const { return range(0, width()); }
   /// Where f stops being smooth: both ends, jumps, and where it meets the clamp at 0.
   std::span<const double> knots() const { return knots_; }
-  /// Polynomials of degree <= 1 between the knots.
+  /// Polynomials of degree <= 3 between the knots.
   bool isPiecewisePolynomial() const { return isPiecewisePolynomial_; }
 
  private:
@@ -64,7 +65,8 @@ class CanonicalFunction {
     bool isClamped;
     double integralBefore;
   };
-  const Stretch& stretchAt(double x) const;
+  std::size_t stretchAt(double x) const;
+  double beginOf(std::size_t stretch) const { return stretch == 0 ? 0 : stretches_[stretch - 1].end; }
   double integralTo(double x) const;
   void addPieces(std::size_t stretch, double begin);
 

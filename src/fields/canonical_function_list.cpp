@@ -23,6 +23,8 @@ CanonicalFunction withMeanOne(CanonicalFunction::About about, std::vector<Stretc
   for (Stretch& s : stretches) {
     s.constant *= factor;
     s.slope *= factor;
+    s.square *= factor;
+    s.cube *= factor;
     for (auto& w : s.waves) w.amplitude *= factor;
     for (auto& b : s.bumps) b.height *= factor;
   }

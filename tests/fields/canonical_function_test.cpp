@@ -163,6 +163,20 @@ TEST(CanonicalFunction, ClampedStretchesIntegrateToZero) {
   EXPECT_NEAR(f.knots()[1], 0.5, 1e-15);
 }
 
+TEST(CanonicalFunction, CubicsBeginWhereTheirStretchBegins) {
+  // On [1, 3]: 2 + u (3 - 4 u + u^2) with u = x - 1; its slope is 0 at u = (4 - sqrt 7) / 3.
+  const CanonicalFunction f(
+      {"cubic", "", "test"},
+      {{.end = 1, .constant = 0.25}, {.end = 3, .constant = 2, .slope = 3, .square = -4, .cube = 1}});
+  EXPECT_DOUBLE_EQ(f(1.5), 2 + 0.5 * (3 - 2 + 0.25));
+  EXPECT_DOUBLE_EQ(f.integral(), 0.25 + 10 / 3.);
+  EXPECT_DOUBLE_EQ(f.integral(1.5, 2), 1 + 3 / 2. * 0.75 - 4 / 3. * 0.875 + 0.9375 / 4);
+  const double turn = (4 - std::sqrt(7)) / 3;
+  EXPECT_NEAR(f.range().max, 2 + turn * (3 - 4 * turn + turn * turn), 1e-13);
+  EXPECT_GE(f.range(1, 2).max, f(1 + turn));
+  EXPECT_TRUE(f.isPiecewisePolynomial());
+}
+
 TEST(CanonicalFunction, UnknownNamesAndBrokenStretchesAreRejected) {
   EXPECT_FALSE(findCanonicalFunction("cosin"));
   EXPECT_THROW(CanonicalFunction({"none", "", ""}, {}), std::invalid_argument);

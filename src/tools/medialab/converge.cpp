@@ -131,7 +131,7 @@ LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
   std::vector<LabTable::Skipped> skipped;
   const std::vector<LabEstimator> estimators = o.selection.select(skipped);
   for (const auto& s : skipped) table.skip(s.what, s.reason);
-  const std::vector<CanonicalFunction> functions = selectFunctions(o.functions);
+  const std::vector<CanonicalFunction> functions = o.functions.select();
   std::size_t total = 0, done = 0;
   for (const auto& f : functions) total += estimators.size() * problemChoices(o.problem, f).size();
   total *= o.doublings + 1;

@@ -13,7 +13,7 @@ namespace pbrtmedia {
 struct ConvergeOptions {
   LabOptions lab;
   EstimatorSelection selection;
-  std::vector<std::string> functions{"cosine"};
+  FunctionSelection functions{.words = {"cosine"}, .ray = {}, .grid = {}};
   ProblemOptions problem;
   PatternKind pattern = PatternKind::Independent;
   unsigned doublings = 10;     ///< means of 1, 2, 4, ... 2^doublings estimates

@@ -168,7 +168,7 @@ void printMeasured(std::ostream& out, const LabTable& table, double depth, const
 EstimateOptions measured(const DocsOptions& o) {
   EstimateOptions e;
   e.lab = o.lab;
-  e.functions = kFunctions;
+  e.functions.words = kFunctions;
   e.problem.depths.assign(std::begin(kDepths), std::end(kDepths));
   e.problem.controls = {kControl};
   e.trials = o.trials;

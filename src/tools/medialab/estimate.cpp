@@ -57,7 +57,7 @@ LabTable estimateTable(EstimateOptions o, const StopSignal& stop) {
               });
   LabTable table(o.lab.command, columnsOf(o));
   for (const auto& s : skipped) table.skip(s.what, s.reason);
-  const std::vector<CanonicalFunction> functions = selectFunctions(o.functions);
+  const std::vector<CanonicalFunction> functions = o.functions.select();
   std::size_t total = 0, done = 0;
   for (const CanonicalFunction& f : functions)
     total += estimators.size() * problemChoices(o.problem, f).size();

@@ -14,7 +14,7 @@ namespace pbrtmedia {
 struct EstimateOptions {
   LabOptions lab;
   EstimatorSelection selection;
-  std::vector<std::string> functions{"all"};
+  FunctionSelection functions{.words = {"all"}, .ray = {}, .grid = {}};
   ProblemOptions problem;
   TrialPlan plan;
   /// Columns of what was chosen; the law also where one is not exponential.

@@ -44,7 +44,7 @@ Heatmap::Pixel measurePixel(const HeatmapOptions& o, const CanonicalFunction& fu
   return pixel;
 }
 
-LabTable tableOf(const HeatmapOptions& o, const Heatmap& map) {
+LabTable tableOf(const HeatmapOptions& o, const std::string& function, const Heatmap& map) {
   std::vector<std::string> columns{"estimator",     "extinction",  "x",        "y",
                                    "transmittance", "efficiency",  "trials",   "exact",
                                    "mean",          "mean_stderr", "variance", "lookups"};
@@ -60,7 +60,7 @@ LabTable tableOf(const HeatmapOptions& o, const Heatmap& map) {
         const Heatmap::Pixel& p = map.layers[l].pixels[i];
         if (p.trials == 0) continue;
         std::vector<LabTable::Cell> row{map.layers[l].estimator,
-                                        o.function,
+                                        function,
                                         static_cast<std::uint64_t>(x),
                                         static_cast<std::uint64_t>(y),
                                         map.transmittance(x),
@@ -183,7 +183,7 @@ Heatmap measureHeatmap(const HeatmapOptions& o, std::vector<LabTable::Skipped>& 
   if (o.width < 1 || o.height < 1) throw std::runtime_error("--resolution: expected at least 1 x 1");
   if (o.trials == 0 && o.lookups < 1) throw std::runtime_error("--lookups: expected at least 1");
   if (o.trials == 1) throw std::runtime_error("--trials: expected at least 2, for a variance");
-  const CanonicalFunction function = selectFunctions({o.function}).front();
+  const CanonicalFunction function = o.function.select().front();
   Heatmap map{
       o.width, o.height, o.topEfficiency > 0 ? o.topEfficiency : function.about().topEfficiency, {}, {}};
   const std::vector<LabEstimator> estimators = estimatorsOf(o, skipped);
@@ -239,7 +239,7 @@ int runHeatmap(const HeatmapOptions& o) {
   const StopSignal stop;
   std::vector<LabTable::Skipped> skipped;
   const Heatmap map = measureHeatmap(o, skipped, stop);
-  LabTable table = tableOf(o, map);
+  LabTable table = tableOf(o, o.function.words.front(), map);
   for (const auto& s : skipped) table.skip(s.what, s.reason);
   noteShares(table, map);
   table.note("law of the transmittance: " + map.law);
@@ -252,7 +252,7 @@ int runHeatmap(const HeatmapOptions& o) {
                                           {Measure::VarianceLookups, "-variance-lookups.png"},
                                           {Measure::VarianceSeconds, "-variance-seconds.png"}}) {
       if (measure == Measure::VarianceSeconds && o.lab.omitSeconds) continue;
-      writeImage(prefix + suffix, heatmapPicture(map, measure, o.function));
+      writeImage(prefix + suffix, heatmapPicture(map, measure, o.function.words.front()));
     }
   }
   writeTable(table, lab);

@@ -16,7 +16,7 @@ struct HeatmapOptions {
   /// empty: the table alone
   LabOptions lab;
   EstimatorSelection selection;
-  std::string function = "cosine";
+  FunctionSelection function{.words = {"cosine"}, .ray = {}, .grid = {}};
   ProblemOptions problem;  ///< depths, controls and efficiencies are those of the map
   TrialPlan plan;
   int width = 64, height = 64;

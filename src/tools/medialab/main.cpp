@@ -85,6 +85,27 @@ void addProblem(CLI::App* c, ProblemOptions& o, bool hasDepths) {
   c->add_flag("--no-means", o.noMeans, "intervals do not know their mean density");
 }
 
+void addVolumes(CLI::App* c, FunctionSelection& o) {
+  c->add_option("--ray", o.ray, "through an .nvdb file, in its world space: ox oy oz dx dy dz")
+      ->expected(6)
+      ->check(number(NumberRange::any()));
+  c->add_option("--grid", o.grid, "of an .nvdb file with several: name, number or beginning of a name");
+}
+
+void addFunctions(CLI::App* c, FunctionSelection& o, const std::string& fallback) {
+  c->add_option("--extinction", o.words,
+                "names of functions or all, tables x,density (.csv), volumes (.nvdb) " + fallback)
+      ->delimiter(',')
+      ->take_all();
+  addVolumes(c, o);
+}
+
+void addFunction(CLI::App* c, FunctionSelection& o) {
+  c->add_option("--extinction", o.words, "function, table x,density (.csv) or volume (.nvdb) (cosine)")
+      ->expected(1);
+  addVolumes(c, o);
+}
+
 void addPattern(CLI::App* c, PatternKind& pattern) {
   std::map<std::string, PatternKind> names;
   for (std::size_t i = 0; i < kPatternNames.size(); ++i) {
@@ -114,7 +135,7 @@ void addEstimate(CLI::App& app, EstimateOptions& o, const std::string& command, 
   addLabOptions(c, o.lab, command);
   addTableOptions(c, o.lab);
   addSelection(c, o.selection);
-  c->add_option("--extinction", o.functions, "names of functions, or all (all)")->delimiter(',')->take_all();
+  addFunctions(c, o.functions, "(all)");
   addProblem(c, o.problem, true);
   addPattern(c, o.plan.pattern);
   c->add_option("--samples-per-estimate", o.plan.samples, "estimates averaged by a trial (1)")
@@ -139,7 +160,7 @@ void addHeatmap(CLI::App& app, HeatmapOptions& o, const std::string& command, Ru
   addLabOptions(c, o.lab, command);
   addTableOptions(c, o.lab);
   addSelection(c, o.selection);
-  c->add_option("--extinction", o.function, "function (cosine)");
+  addFunction(c, o.function);
   addProblem(c, o.problem, false);
   addPattern(c, o.plan.pattern);
   c->add_option("--samples-per-estimate", o.plan.samples, "estimates averaged by a trial (1)")
@@ -166,9 +187,7 @@ void addConverge(CLI::App& app, ConvergeOptions& o, const std::string& command, 
   addLabOptions(c, o.lab, command);
   addTableOptions(c, o.lab);
   addSelection(c, o.selection);
-  c->add_option("--extinction", o.functions, "names of functions, or all (cosine)")
-      ->delimiter(',')
-      ->take_all();
+  addFunctions(c, o.functions, "(cosine)");
   addProblem(c, o.problem, true);
   addPattern(c, o.pattern);
   c->add_option("--doublings", o.doublings, "the largest mean has 2^doublings estimates (10)")
@@ -182,7 +201,7 @@ void addProfile(CLI::App& app, ProfileOptions& o, const std::string& command, Ru
   addLabOptions(c, o.lab, command);
   addTableOptions(c, o.lab);
   addSelection(c, o.selection);
-  c->add_option("--extinction", o.function, "function (cosine)");
+  addFunction(c, o.function);
   addProblem(c, o.problem, true);
   c->add_option("--points", o.points, "where the field is shown (256)")->check(wholeNumber(2u, 1000000u));
   c->add_option("--picture", o.picture, "image file to plot into: .png, .exr, .pfm or .tga");

@@ -149,7 +149,7 @@ int runProfile(const ProfileOptions& o) {
     throw std::runtime_error(o.picture + ": unknown image extension; known: .exr, .pfm, .png, .tga");
   }
   if (!o.picture.empty()) checkWritable(o.picture);
-  const CanonicalFunction function = selectFunctions({o.function}).front();
+  const CanonicalFunction function = o.function.select().front();
   LabTable table = emptyTable(o);
   const Profile profile = measure(o, function, table);
   fill(o, profile, table);

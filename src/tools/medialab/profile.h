@@ -12,7 +12,7 @@ namespace pbrtmedia {
 struct ProfileOptions {
   LabOptions lab;
   EstimatorSelection selection;  ///< one estimator or more
-  std::string function = "cosine";
+  FunctionSelection function{.words = {"cosine"}, .ray = {}, .grid = {}};
   ProblemOptions problem;  ///< the first of each list counts
   unsigned points = 256;   ///< where the field is shown
   std::string picture;     ///< image file to plot into; empty: none

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <stdexcept>
 #include <string_view>
 
 #include "base/diagnostics.h"
+#include "tools/medialab/tabulated.h"
+#include "tools/medialab/volume_line.h"
 
 namespace pbrtmedia {
 namespace {
@@ -18,7 +21,7 @@ struct Assignment {
   ParameterValue value;
 };
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
   std::string out = "\"";
   out += text;
   out += '"';
@@ -37,7 +40,7 @@ std::string joined(const std::vector<std::string_view>& words) {
 Assignment parseAssignment(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string_view::npos || equals + 1 == text.size()) {
-    throw std::runtime_error("parameter " + quoted(text) + ": expected name=value");
+    throw std::runtime_error("parameter " + inQuotes(text) + ": expected name=value");
   }
   const std::string_view word = text.substr(equals + 1);
   Assignment assignment{std::string(text.substr(0, equals)), std::string(word)};
@@ -80,7 +83,7 @@ template <class Owner>
 bool setIfKnown(Owner& owner, std::string_view ownerName, const Assignment& assignment) {
   const AssignResult result = assignTo(owner, assignment);
   if (result.error) {
-    throw std::runtime_error(std::string(ownerName) + ": parameter " + quoted(assignment.name) + ": " +
+    throw std::runtime_error(std::string(ownerName) + ": parameter " + inQuotes(assignment.name) + ": " +
                              *result.error);
   }
   return result.known;
@@ -89,7 +92,7 @@ bool setIfKnown(Owner& owner, std::string_view ownerName, const Assignment& assi
 [[noreturn]] void complainUnknown(std::string_view estimator, std::string_view parameter,
                                   const std::vector<ParameterDescription>& known) {
   std::string text(estimator);
-  text += " has no parameter " + quoted(parameter);
+  text += " has no parameter " + inQuotes(parameter);
   if (known.empty()) text += "; it has none at all";
   const std::vector<std::string_view> names = namesOf(known);
   text += suggestion(parameter, names);
@@ -120,7 +123,7 @@ AnyLaw parseLaw(const std::string& name) {
   const auto law = findLaw(name);
   if (law) return *law;
   const auto names = lawNames();
-  throw std::runtime_error("unknown law " + quoted(name) + suggestion(name, names));
+  throw std::runtime_error("unknown law " + inQuotes(name) + suggestion(name, names));
 }
 
 /// All parameter names of all estimators.
@@ -167,7 +170,7 @@ std::vector<LabEstimator> EstimatorSelection::select(std::vector<LabTable::Skipp
     if (!anyKnows) {
       const std::vector<std::string> all = everyParameter();
       const std::vector<std::string_view> views(all.begin(), all.end());
-      throw std::runtime_error("no estimator has a parameter " + quoted(assignment.name) +
+      throw std::runtime_error("no estimator has a parameter " + inQuotes(assignment.name) +
                                suggestion(assignment.name, views));
     }
   }
@@ -183,18 +186,33 @@ std::vector<LabEstimator> EstimatorSelection::select(std::vector<LabTable::Skipp
   return chosen;
 }
 
-std::vector<CanonicalFunction> selectFunctions(const std::vector<std::string>& words) {
+std::vector<CanonicalFunction> FunctionSelection::select() const {
   std::vector<CanonicalFunction> functions;
   const auto names = canonicalFunctionNames();
+  bool hasVolume = false;
   for (const std::string& word : words) {
-    if (word == kAll) {
+    const std::filesystem::path path(word);
+    if (path.extension() == ".csv" || path.extension() == ".txt") {
+      functions.push_back(readTabulatedFunction(path));
+    } else if (path.extension() == ".nvdb") {
+      hasVolume = true;
+      if (ray.size() != 6) {
+        throw std::runtime_error(inQuotes(word) + " needs --ray with six numbers: origin, direction; found " +
+                                 std::to_string(ray.size()));
+      }
+      functions.push_back(
+          functionAlong(path, grid, {.o = {ray[0], ray[1], ray[2]}, .d = {ray[3], ray[4], ray[5]}}));
+    } else if (word == kAll) {
       for (const std::string_view name : names) functions.push_back(*findCanonicalFunction(name));
     } else if (auto function = findCanonicalFunction(word)) {
       functions.push_back(std::move(*function));
     } else {
-      throw std::runtime_error("unknown extinction function " + quoted(word) + suggestion(word, names));
+      throw std::runtime_error("unknown extinction function " + inQuotes(word) + suggestion(word, names) +
+                               "; or a table (.csv), or a volume (.nvdb) with --ray");
     }
   }
+  if (!hasVolume && (!ray.empty() || !grid.empty()))
+    throw std::runtime_error("--ray and --grid belong to a volume, found no --extinction file.nvdb");
   return functions;
 }
 

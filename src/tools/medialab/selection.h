@@ -29,7 +29,15 @@ struct EstimatorSelection {
   std::vector<LabEstimator> select(std::vector<LabTable::Skipped>& skipped) const;
 };
 
-/// Functions by name, or all of them for "all".
-std::vector<CanonicalFunction> selectFunctions(const std::vector<std::string>& words);
+/// The densities that a command asks for.
+struct FunctionSelection {
+  /// Names of functions, "all" of them, tables (.csv, .txt: readTabulatedFunction) and volumes (.nvdb:
+  /// functionAlong).
+  std::vector<std::string> words;
+  std::vector<double> ray;  ///< through volumes: o and d, six numbers
+  std::string grid;         ///< of volumes
+
+  std::vector<CanonicalFunction> select() const;
+};
 
 }  // namespace pbrtmedia
