@@ -146,7 +146,7 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
   bool mediaEmit = false;
   try {
     made.film = builtAt(scene.film.location, "Film \"image\"",
-                        [&] { return std::make_unique<Film>(film.settings, std::move(film.filter)); });
+                        [&] { return std::make_unique<Film>(film.settings, *film.filter); });
     checkPixelBounds(scene, *integrator, *made.film);
     made.scene = world.build(integrator->rendersMedia);
     CameraMedium cameraMedium;

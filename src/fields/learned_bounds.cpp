@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "fields/learned_bounds.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -80,18 +82,22 @@ void LearnedBounds::publish() {
   ++progress_.passes;
 }
 
-std::vector<float> LearnedBounds::save() const {
-  std::vector<float> numbers;
+template <class Visit>
+void LearnedBounds::visitCells(const Visit& visit) const {
   const auto& n = inForce_.shape().count;
   for (std::int64_t k = 0; k < n.z; ++k) {
     for (std::int64_t j = 0; j < n.y; ++j) {
-      for (std::int64_t i = 0; i < n.x; ++i) {
-        const SuperVoxel cell = inForce_.at(i, j, k);
-        numbers.push_back(cell.upper);
-        numbers.push_back(cell.lower);
-      }
+      for (std::int64_t i = 0; i < n.x; ++i) visit(static_cast<std::size_t>(inForce_.shape().index(i, j, k)));
     }
   }
+}
+
+std::vector<float> LearnedBounds::save() const {
+  std::vector<float> numbers;
+  visitCells([&](std::size_t cell) {
+    numbers.push_back(inForce_.upperOf(cell));
+    numbers.push_back(inForce_.lowerOf(cell));
+  });
   return numbers;
 }
 
@@ -112,6 +118,38 @@ bool LearnedBounds::restore(const std::vector<float>& saved) {
   progress_.maximum = inForce_.maximum();
   isRestored_ = true;
   return true;
+}
+
+LearnedBounds::State LearnedBounds::state() const {
+  State state;
+  visitCells([&](std::size_t cell) {
+    state.upper.push_back(inForce_.upperOf(cell));
+    state.lower.push_back(inForce_.lowerOf(cell));
+    state.most.push_back(most_[cell].load(std::memory_order_relaxed));
+    state.least.push_back(least_[cell].load(std::memory_order_relaxed));
+  });
+  state.progress = progress_;
+  state.isRestored = isRestored_;
+  return state;
+}
+
+bool LearnedBounds::fits(const State& state) const {
+  const std::size_t cells = inForce_.cellCount();
+  return state.upper.size() == cells && state.lower.size() == cells && state.most.size() == cells &&
+         state.least.size() == cells;
+}
+
+void LearnedBounds::restore(const State& state) {
+  CHECK(fits(state));
+  std::size_t next = 0;
+  inForce_.update([&](std::size_t cell, const SuperVoxel&) {
+    const std::size_t i = next++;
+    most_[cell].store(state.most[i], std::memory_order_relaxed);
+    least_[cell].store(state.least[i], std::memory_order_relaxed);
+    return SuperVoxel{state.upper[i], state.lower[i], SuperVoxel::kUnknownMean};
+  });
+  progress_ = state.progress;
+  isRestored_ = state.isRestored;
 }
 
 }  // namespace pbrtmedia

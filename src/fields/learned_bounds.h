@@ -51,6 +51,14 @@ class LearnedBounds {
     std::optional<std::uint64_t> warmUpLookups{};
   };
 
+  /// Everything between two passes: bounds in force, what is proposed so far, how far learning is.
+  struct State {
+    std::vector<float> upper, lower;  ///< in force, cell by cell, x fastest
+    std::vector<float> most, least;   ///< proposals
+    LearningProgress progress;
+    bool isRestored = false;
+  };
+
   /// Throws SceneError (location unknown) when a parameter is out of range.
   LearnedBounds(const SuperVoxelLattice& cells, const Params& params);
 
@@ -94,6 +102,13 @@ class LearnedBounds {
   /// Starts from such numbers instead. False, changing nothing, when their count or a value does not fit.
   bool restore(const std::vector<float>& saved);
 
+  /// To go on elsewhere as if nothing had happened, after a publication. Not thread-safe.
+  State state() const;
+  /// Whether a state has as many cells.
+  bool fits(const State& state) const;
+  /// A state that fits. Not thread-safe.
+  void restore(const State& state);
+
  private:
   /// Optical depths of probes, in whole units, so that their sums do not depend on the order.
   struct ProbeSum {
@@ -101,6 +116,10 @@ class LearnedBounds {
   };
   static constexpr double kDepthUnit = 0x1p-24, kMostDepth = 64;  ///< a probe of more counts as that much
   static constexpr std::size_t kProbeSlots = 1024;                ///< threads would queue for a common sum
+
+  /// Calls visit(stored cell) for each cell of the lattice, x fastest.
+  template <class Visit>
+  void visitCells(const Visit& visit) const;
 
   Params params_;
   SuperVoxels inForce_;

@@ -69,6 +69,7 @@ class SuperVoxels {
     return static_cast<std::size_t>(shape().index(along(at.x, n.x), along(at.y, n.y), along(at.z, n.z)));
   }
   float upperOf(std::size_t storedCell) const { return bounds_[storedCell].upper; }
+  float lowerOf(std::size_t storedCell) const { return bounds_[storedCell].lower; }
   /// Replaces every cell by newCell(storedCell, old), x fastest. Not while others walk.
   void update(const std::function<SuperVoxel(std::size_t, const SuperVoxel&)>& newCell);
 

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "base/diagnostics.h"
 #include "base/parallel.h"
@@ -16,8 +17,7 @@
 namespace pbrtmedia {
 namespace {
 
-constexpr int kTableWidth = 16;               // PBRT-v3's table, which decides the weights (reference 8.1)
-constexpr float kNegativeLuminance = -1e-5f;  // below it a sample is an error, above it rounding
+constexpr float kNegativeLuminance = -1e-5f;           // below it a sample is an error, above it rounding
 constexpr int kMaxResolution = std::int32_t{1} << 24;  // pixel coordinates stay exact as floats
 
 [[noreturn]] void fail(const std::string& message) { throw SceneError({}, "film: " + message); }
@@ -67,11 +67,12 @@ Bounds2i grownBounds(const Bounds2i& pixels, Vector2f radius) {
 }
 
 /// Before memory is taken: with more than the machine has, the system would end the program without a word.
-void checkMemory(const Bounds2i& pixels, Vector2f radius) {
+void checkMemory(const Bounds2i& pixels, Vector2f radius, std::size_t layerChannels) {
   const double width = pixels.width(), height = pixels.height();
   const double sampleArea = (width + 2.0 * radius.x + 2) * (height + 2.0 * radius.y + 2);
   const double bytes =
-      width * height * (sizeof(Film::Sums) + 2 * sizeof(Rgb)) + sampleArea * sizeof(SamplePass::Sample);
+      width * height * (sizeof(Film::Sums) + 2 * sizeof(Rgb)) + sampleArea * sizeof(SamplePass::Sample) +
+      static_cast<double>(layerChannels) * (width * height * sizeof(double) + sampleArea * sizeof(float));
   const auto most = static_cast<double>(machineMemoryBytes());
   if (bytes <= most) return;
   std::ostringstream text;
@@ -82,40 +83,31 @@ void checkMemory(const Bounds2i& pixels, Vector2f radius) {
   fail(text.str());
 }
 
-std::vector<float> tabulate(const Filter& filter) {
-  std::vector<float> table;
-  table.reserve(kTableWidth * kTableWidth);
-  for (int y = 0; y < kTableWidth; ++y) {
-    for (int x = 0; x < kTableWidth; ++x) {
-      table.push_back(filter.evaluate({(static_cast<float>(x) + 0.5f) * filter.radius().x / kTableWidth,
-                                       (static_cast<float>(y) + 0.5f) * filter.radius().y / kTableWidth}));
+/// What the samples of one index bring to a pixel: take(sample, weight, pixel of the sample), row by row.
+template <class Take>
+void visitNeighbours(const SamplePass& pass, const FilterTable& filter, int index, Point2i pixel,
+                     const Take& take) {
+  const Point2i first = filter.firstNeighbour(), last = filter.lastNeighbour();
+  for (int ky = first.y; ky <= last.y; ++ky) {
+    const SamplePass::Sample* neighbour = &pass.at({pixel.x + first.x, pixel.y + ky}, index);
+    for (int kx = first.x; kx <= last.x; ++kx, ++neighbour) {
+      if (!neighbour->valid) continue;
+      const float* const weight = filter.find(static_cast<float>(kx) + neighbour->offset.x - 0.5f,
+                                              static_cast<float>(ky) + neighbour->offset.y - 0.5f);
+      if (weight) take(*neighbour, static_cast<double>(*weight), Point2i{pixel.x + kx, pixel.y + ky});
     }
   }
-  return table;
-}
-
-/// Cell of the table for a distance per axis (sample minus pixel centre), or -1 outside [-radius, radius).
-int tableCell(float d, float radius, float cellsPerPixel) {
-  if (!(d >= -radius && d < radius)) return -1;
-  return std::min(static_cast<int>(std::abs(d) * cellsPerPixel), kTableWidth - 1);
 }
 
 }  // namespace
 
-Film::Film(const Settings& settings, std::unique_ptr<Filter> filter)
-    : settings_(checked(settings)), filter_(std::move(filter)) {
-  CHECK(filter_ != nullptr);
-  const Vector2f radius = filter_->radius();
-  pixelBounds_ = croppedPixels(settings_);
-  checkMemory(pixelBounds_, radius);
-  sampleBounds_ = grownBounds(pixelBounds_, radius);
-  filterTable_ = tabulate(*filter_);
-  // A sample at offset o in [0, 1) of the pixel k away lies k + o - 1/2 from the centre.
-  const auto first = [](float r) { return static_cast<int>(std::floor(-0.5 - r)) + 1; };
-  const auto last = [](float r) { return static_cast<int>(std::ceil(0.5 + r)) - 1; };
-  firstNeighbour_ = {first(radius.x), first(radius.y)};
-  lastNeighbour_ = {last(radius.x), last(radius.y)};
-  pixels_.resize(static_cast<std::size_t>(pixelBounds_.area()));
+Film::Film(const Settings& settings, const Filter& filter)
+    : settings_(checked(settings)), filter_(filter), pixelBounds_(croppedPixels(settings_)) {
+  checkMemory(pixelBounds_, filter_.radius(), settings_.layers.channelCount());
+  sampleBounds_ = grownBounds(pixelBounds_, filter_.radius());
+  const auto pixels = static_cast<std::size_t>(pixelBounds_.area());
+  state_.sums.resize(pixels);
+  state_.layers.resize(pixels * settings_.layers.channelCount());
 }
 
 bool Film::admit(Rgb& radiance, RenderCounters& counters) const {
@@ -136,64 +128,80 @@ bool Film::admit(Rgb& radiance, RenderCounters& counters) const {
 
 void Film::accumulate(const SamplePass& pass) {
   CHECK(pass.bounds() == sampleBounds_) << "a pass must cover the sample bounds of its film";
-  parallelFor(static_cast<std::size_t>(pixelBounds_.height()),
-              [&](std::size_t row) { accumulateRow(pass, pixelBounds_.min.y + static_cast<int>(row)); });
+  parallelFor(static_cast<std::size_t>(pixelBounds_.height()), [&](std::size_t row) {
+    const int y = pixelBounds_.min.y + static_cast<int>(row);
+    accumulateRow(pass, y);
+    if (!settings_.layers.isEmpty()) accumulateLayersOfRow(pass, y);
+  });
 }
 
 void Film::accumulateRow(const SamplePass& pass, int y) {
-  const Vector2f radius = filter_->radius();
-  const float cellsX = kTableWidth / radius.x, cellsY = kTableWidth / radius.y;
   Sums* const row =
-      pixels_.data() + static_cast<std::ptrdiff_t>(y - pixelBounds_.min.y) * pixelBounds_.width();
+      state_.sums.data() + static_cast<std::ptrdiff_t>(y - pixelBounds_.min.y) * pixelBounds_.width();
   for (int s = 0; s < pass.samplesPerPixel(); ++s) {
     for (int x = pixelBounds_.min.x; x < pixelBounds_.max.x; ++x) {
       Sums sums = row[x - pixelBounds_.min.x];
-      for (int ky = firstNeighbour_.y; ky <= lastNeighbour_.y; ++ky) {
-        const SamplePass::Sample* neighbour = &pass.at({x + firstNeighbour_.x, y + ky}, s);
-        for (int kx = firstNeighbour_.x; kx <= lastNeighbour_.x; ++kx, ++neighbour) {
-          if (!neighbour->valid) continue;
-          const int cellY = tableCell(static_cast<float>(ky) + neighbour->offset.y - 0.5f, radius.y, cellsY);
-          const int cellX = tableCell(static_cast<float>(kx) + neighbour->offset.x - 0.5f, radius.x, cellsX);
-          if (cellX < 0 || cellY < 0) continue;
-          const double weight = filterTable_[static_cast<std::size_t>(cellY * kTableWidth + cellX)];
-          sums.r += weight * neighbour->radiance.r;
-          sums.g += weight * neighbour->radiance.g;
-          sums.b += weight * neighbour->radiance.b;
-          sums.weight += weight;
-        }
-      }
+      visitNeighbours(pass, filter_, s, {x, y},
+                      [&](const SamplePass::Sample& sample, double weight, Point2i) {
+                        sums.r += weight * sample.radiance.r;
+                        sums.g += weight * sample.radiance.g;
+                        sums.b += weight * sample.radiance.b;
+                        sums.weight += weight;
+                      });
       row[x - pixelBounds_.min.x] = sums;
     }
   }
 }
 
+void Film::accumulateLayersOfRow(const SamplePass& pass, int y) {
+  const std::size_t channels = settings_.layers.channelCount();
+  double* sums = state_.layers.data() + static_cast<std::size_t>(y - pixelBounds_.min.y) *
+                                            static_cast<std::size_t>(pixelBounds_.width()) * channels;
+  for (int x = pixelBounds_.min.x; x < pixelBounds_.max.x; ++x, sums += channels) {
+    for (int s = 0; s < pass.samplesPerPixel(); ++s) {
+      visitNeighbours(pass, filter_, s, {x, y}, [&](const SamplePass::Sample&, double weight, Point2i from) {
+        const float* const values = pass.layerValues(from, s);
+        for (std::size_t c = 0; c < channels; ++c) sums[c] += weight * values[c];
+      });
+    }
+  }
+}
+
 Image Film::develop() const {
-  Image image(pixelBounds_.width(), pixelBounds_.height());
+  std::vector<std::string> names = {"R", "G", "B"};
+  names.insert(names.end(), settings_.layers.channelNames().begin(), settings_.layers.channelNames().end());
+  Image image(pixelBounds_.width(), pixelBounds_.height(), names);
   image.dataWindow = pixelBounds_;
   image.displayWindow = {{0, 0}, settings_.resolution};
-  const auto channel = [&](double sum, double weight) {
+  const double perSplat =
+      state_.splatPaths > 0 ? state_.splatArea / static_cast<double>(state_.splatPaths) : 0;
+  const auto channel = [&](double mean) {
     constexpr double kMost = std::numeric_limits<float>::max();
-    const double mean = keepsNegatives_ ? sum / weight : std::max(0.0, sum / weight);
+    if (!keepsNegatives_) mean = std::max(0.0, mean);
     return static_cast<float>(std::clamp(mean * settings_.scale, -kMost, kMost));
   };
   std::size_t i = 0;
   for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      const Sums& s = pixels_[i++];
-      const Rgb value = s.weight != 0
-                            ? Rgb(channel(s.r, s.weight), channel(s.g, s.weight), channel(s.b, s.weight))
-                            : Rgb(0);
-      image.setRgb(x, y, value);
+    for (int x = 0; x < image.width(); ++x, ++i) {
+      const Sums& s = state_.sums[i];
+      const SplatSum splats = state_.splats.empty() ? SplatSum{} : state_.splats[i];
+      const auto mean = [&](double sum) { return s.weight != 0 ? sum / s.weight : 0; };
+      image.setRgb(x, y,
+                   {channel(mean(s.r) + splats.r * perSplat), channel(mean(s.g) + splats.g * perSplat),
+                    channel(mean(s.b) + splats.b * perSplat)});
+      for (std::size_t c = 3; c < image.channelCount(); ++c)
+        image.at(x, y, c) = static_cast<float>(mean(state_.layers[i * (image.channelCount() - 3) + c - 3]));
     }
   }
   return image;
 }
 
-void Film::restore(std::vector<Sums> sums) {
-  if (sums.size() != pixels_.size())
-    throw std::invalid_argument("Film::restore: " + std::to_string(sums.size()) + " pixels for a film of " +
-                                std::to_string(pixels_.size()));
-  pixels_ = std::move(sums);
+bool Film::restore(State state) {
+  const std::size_t pixels = state_.sums.size();
+  if (state.sums.size() != pixels || state.layers.size() != state_.layers.size()) return false;
+  if (!state.splats.empty() && state.splats.size() != pixels) return false;
+  state_ = std::move(state);
+  return true;
 }
 
 }  // namespace pbrtmedia

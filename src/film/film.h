@@ -2,39 +2,20 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <vector>
 
 #include "base/bounds.h"
 #include "base/statistics.h"
+#include "film/filter_table.h"
+#include "film/layers.h"
+#include "film/sample_pass.h"
+#include "film/splat_buffer.h"
 #include "filters/filter.h"
 #include "image/image.h"
 #include "spectrum/rgb.h"
 
 namespace pbrtmedia {
-
-/// The samples of some consecutive sample indices over the film's sample bounds, before filtering. Threads
-/// write disjoint entries; nothing is summed here, so nothing depends on their order.
-class SamplePass {
- public:
-  struct Sample {
-    Point2f offset;      ///< film position minus the pixel's integer corner, in [0, 1)
-    Rgb radiance;        ///< already multiplied by the camera's ray weight
-    bool valid = false;  ///< false: not taken (stopped early); it then does not count at all
-  };
-  SamplePass(Bounds2i sampleBounds, int samplesPerPixel);
-  Bounds2i bounds() const { return bounds_; }
-  int samplesPerPixel() const { return samples_; }
-  Sample& at(Point2i pixel, int sample) { return data_[index(pixel, sample)]; }
-  const Sample& at(Point2i pixel, int sample) const { return data_[index(pixel, sample)]; }
-  void clear();
-
- private:
-  std::size_t index(Point2i pixel, int sample) const;
-  Bounds2i bounds_;
-  int samples_;
-  std::vector<Sample> data_;
-};
 
 /// Film `image`: weighted averages of filtered samples, sums in double. Pixel = Σ L w f / Σ f (scene-language
 /// reference 8.1); f from the 16 x 16 table of PBRT-v3. Sums are taken per pixel in a fixed order (sample
@@ -48,20 +29,40 @@ class Film {
     float cropWindow[4] = {0, 1, 0, 1};  ///< x0 x1 y0 y1, fractions, y down
     float scale = 1;
     float maxSampleLuminance = kInfinity;
+    LayerSet layers{};  ///< what the image is to hold besides colour
   };
-  /// Weighted sums of one pixel; everything the film remembers.
+  /// Weighted sums of the samples of one pixel.
   struct Sums {
     double r = 0, g = 0, b = 0, weight = 0;
     bool operator==(const Sums&) const = default;
   };
+  /// Of splats, in double; they have no weights.
+  struct SplatSum {
+    double r = 0, g = 0, b = 0;
+    bool operator==(const SplatSum&) const = default;
+  };
+  /// Everything the film remembers, row by row over `pixelBounds`.
+  struct State {
+    std::vector<Sums> sums;
+    std::vector<double> layers;    ///< weighted sums, a value for each channel; empty without layers
+    std::vector<SplatSum> splats;  ///< empty before the first one
+    std::uint64_t splatPaths = 0;  ///< a whole number, as sums of it depend on no grouping
+    double splatArea = 0;          ///< pixels over which the paths spread
+    bool operator==(const State&) const = default;
+  };
 
   /// Sorts and clamps the crop window. Throws SceneError for settings that make no picture: no pixels, or a
   /// crop window, scale or luminance limit that is not a number.
-  Film(const Settings& settings, std::unique_ptr<Filter> filter);
+  Film(const Settings& settings, const Filter& filter);
 
   const Settings& settings() const { return settings_; }
   Bounds2i pixelBounds() const { return pixelBounds_; }    ///< pixels of the crop window
   Bounds2i sampleBounds() const { return sampleBounds_; }  ///< pixels that need samples: grown by the filter
+  /// Pixels of the whole image, cropped or not.
+  double imageArea() const {
+    return static_cast<double>(settings_.resolution.x) * static_cast<double>(settings_.resolution.y);
+  }
+  const LayerSet& layers() const { return settings_.layers; }
   /// Whether a sample may reach the film; counts its cause in `counters` and returns false otherwise. A
   /// dropped sample is black but still weighs, as in PBRT-v3. Luminance above maxSampleLuminance is scaled
   /// down in place, and so is that below minus it.
@@ -72,25 +73,30 @@ class Film {
   bool keepsNegatives() const { return keepsNegatives_; }
   /// Adds a pass over exactly `sampleBounds`; parallel over rows.
   void accumulate(const SamplePass& pass);
+  /// Adds splats, each with the filter's weights over the filter's integral, in their order: for each pixel
+  /// the sum is the same whatever the units of work, if the orders are. `paths`: how many light paths or
+  /// mutations they are of, which spread over `area` pixels, the same in each call: a splat of value L from
+  /// each, evenly over these pixels, makes them L. A pixel is the mean of its samples plus its splats.
+  /// Parallel over rows.
+  void addSplats(std::span<const SplatBuffer> units, std::uint64_t paths, double area);
   /// Current image: normalised, negative values at 0 unless they are kept, scaled. Data and display windows
-  /// are set.
+  /// are set. Layers follow the colour, each a mean of samples as that is.
   Image develop() const;
 
-  /// The sums, row by row over `pixelBounds`, for checkpoints; and back. Throws std::invalid_argument when
-  /// the number of pixels differs.
-  const std::vector<Sums>& sums() const { return pixels_; }
-  void restore(std::vector<Sums> sums);
+  /// For checkpoints, and back: false, changing nothing, for a state of another film.
+  const State& state() const { return state_; }
+  bool restore(State state);
 
  private:
   void accumulateRow(const SamplePass& pass, int y);
+  void accumulateLayersOfRow(const SamplePass& pass, int y);
+  void addSplatsToRows(std::span<const Splat* const> splats, int firstRow, int lastRow);
 
   Settings settings_;
   bool keepsNegatives_ = false;
-  std::unique_ptr<Filter> filter_;
+  FilterTable filter_;
   Bounds2i pixelBounds_, sampleBounds_;
-  std::vector<float> filterTable_;                      ///< kTableWidth^2 values over the positive quadrant
-  Point2i firstNeighbour_{0, 0}, lastNeighbour_{0, 0};  ///< pixels whose samples can reach a pixel, relative
-  std::vector<Sums> pixels_;
+  State state_;
 };
 
 }  // namespace pbrtmedia

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-2-Clause
+#include "film/sample_pass.h"
+
 #include <glog/logging.h>
 
 #include <algorithm>
 
-#include "film/film.h"
-
 namespace pbrtmedia {
 
-SamplePass::SamplePass(Bounds2i sampleBounds, int samplesPerPixel)
-    : bounds_(sampleBounds), samples_(samplesPerPixel) {
+SamplePass::SamplePass(Bounds2i sampleBounds, int samplesPerPixel, const LayerSet& layers)
+    : bounds_(sampleBounds), samples_(samplesPerPixel), layers_(layers) {
   CHECK_GT(samplesPerPixel, 0);
   data_.resize(static_cast<std::size_t>(bounds_.area()) * static_cast<std::size_t>(samples_));
+  layerData_.resize(data_.size() * layers_.channelCount());
 }
 
-void SamplePass::clear() { std::fill(data_.begin(), data_.end(), Sample{}); }
+void SamplePass::clear() {
+  std::fill(data_.begin(), data_.end(), Sample{});
+  std::fill(layerData_.begin(), layerData_.end(), 0.0f);
+}
 
 // One plane for each sample index: the order in which the film reads them.
 std::size_t SamplePass::index(Point2i pixel, int sample) const {

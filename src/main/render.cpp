@@ -18,7 +18,8 @@
 #include "main/progress.h"
 #include "main/statistics_report.h"
 #include "main/warnings.h"
-#include "render/render_loop.h"
+#include "render/integrator.h"
+#include "render/render_options.h"
 #include "scene/param_text.h"
 #include "scene/parser.h"
 #include "scene/print.h"
@@ -148,14 +149,13 @@ RenderResult renderImage(const Construction& scene, const Options& options, cons
   loop.tileSize = options.tileSize;
   loop.pixelBounds = scene.pixelBounds;
   loop.stop = &ending.stop.flag();
-  loop.learners = scene.scene->learners();
   const double timeLeft = options.timeLimit ? *options.timeLimit - ending.sinceStart.seconds() : 0;
   ProgressLine line(options.progress, options.quiet, scene.outfile.filename().string());
   loop.progress = [&](const RenderProgress& p) {
     line.update(static_cast<std::int64_t>(p.samplesDone), static_cast<std::int64_t>(p.samplesTotal),
                 std::max(0.0, timeLeft));
   };
-  RenderResult result = renderFilm(*scene.camera, *scene.sampler, *scene.integrator, *scene.film, loop);
+  RenderResult result = scene.integrator->render(*scene.camera, *scene.sampler, *scene.film, loop);
   line.finish(static_cast<std::int64_t>(result.samplesTaken), static_cast<std::int64_t>(result.samplesTotal));
   return result;
 }

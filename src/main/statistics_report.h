@@ -8,7 +8,7 @@
 
 #include "base/statistics.h"
 #include "base/stopwatch.h"
-#include "render/render_loop.h"
+#include "render/render_result.h"
 
 namespace pbrtmedia {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "main/options.h"
-#include "render/render_loop.h"
+#include "render/render_result.h"
 #include "world/scene.h"
 
 namespace pbrtmedia {

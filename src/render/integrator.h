@@ -3,36 +3,40 @@
 
 #include <string_view>
 
-#include "base/pixel_stream.h"
-#include "base/ray.h"
-#include "base/statistics.h"
-#include "samplers/sampler.h"
-#include "spectrum/rgb.h"
-
 namespace pbrtmedia {
 
-struct MismatchLog;
+class Camera;
+class Film;
+class Sampler;
+class Scene;
+struct RenderOptions;
+struct RenderResult;
 
-/// What one camera sample carries through the renderer. Lives on the stack of one thread.
-struct SampleContext {
-  Sampler& sampler;  ///< dimensions that profit from good distribution
-  Rng& rng;          ///< everything of unbounded dimension (tracking, roulette)
-  RenderCounters& counters;
-  MismatchLog* mismatches = nullptr;  ///< where inconsistent boundaries are noted; null: nowhere
-  PixelSample pixelSample = {};       ///< what `rng` serves, for patterns over the samples of a pixel
-
-  /// What media draw from.
-  PixelStream stream() { return {rng, pixelSample}; }
-};
-
-/// Light transport: estimates the radiance that arrives along a ray. Immutable after preparation,
-/// thread-safe.
+/// Light transport: makes the image of a scene. Immutable after construction. Most integrators estimate
+/// radiance along rays (SamplingIntegrator); others walk chains or trace photons in a loop of their own over
+/// PassLoop.
 class Integrator {
  public:
   virtual ~Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
   virtual std::string_view typeName() const = 0;
-  /// `ray`: world space, unit direction, differentials already scaled by 1/sqrt(samples per pixel).
-  virtual Rgb radiance(const RayDifferential& ray, SampleContext& context) const = 0;
+  /// What is rendered. Whoever renders finds there the media whose bounds are learned (Scene::learners).
+  const Scene& scene() const { return scene_; }
+
+  /// Takes the samples of an image and accumulates them on the film, in passes. Every sample is a pure
+  /// function of (seed, pixel, sample index), or of (seed, number of the chain), and of the passes before
+  /// where bounds are learned: image, counters and records are the same for any number of threads, tile size
+  /// and grouping into passes. Stopped early (time, flag, callback) it leaves the film with exactly the
+  /// samples that were taken; a path that is left on its way (leaveIfAbandoned) is none.
+  virtual RenderResult render(const Camera& camera, const Sampler& sampler, Film& film,
+                              const RenderOptions& options) const = 0;
+
+ protected:
+  explicit Integrator(const Scene& scene) : scene_(scene) {}
+
+ private:
+  const Scene& scene_;
 };
 
 }  // namespace pbrtmedia

@@ -113,7 +113,7 @@ class Scene {
   /// The media of the scene that SceneBuilder::addMedium was told of. Not const, as bounds may be learned;
   /// nothing else changes.
   const std::vector<Medium*>& media() const;
-  /// Those of them whose bounds are learned, for RenderOptions::learners.
+  /// Those of them whose bounds are learned.
   std::vector<Medium*> learners() const;
   /// Bounds of all surfaces (over all times). Empty for a scene without surfaces.
   const Bounds3f& bounds() const { return bounds_; }

@@ -6,7 +6,7 @@
 #include "construct/attempt.h"
 #include "lights/light.h"
 #include "materials/material.h"
-#include "render/render_loop.h"
+#include "render/sample_taker.h"
 
 // What constructed objects do, as lists of numbers: two scenes that differ in one parameter must differ here.
 namespace pbrtmedia::test {
@@ -204,9 +204,8 @@ inline Numbers filmResponse(const Attempt& a) {
 inline Numbers rendered(const Attempt& a) {
   RenderOptions loop;
   loop.pixelBounds = a.made->pixelBounds;
-  loop.learners = a.made->scene->learners();
   const RenderResult result =
-      renderFilm(*a.made->camera, *a.made->sampler, *a.made->integrator, *a.made->film, loop);
+      a.made->integrator->render(*a.made->camera, *a.made->sampler, *a.made->film, loop);
   Numbers n{static_cast<double>(result.samplesTaken)};
   const Image image = a.made->film->develop();
   for (int y = 0; y < image.height(); ++y) {

@@ -6,7 +6,7 @@
 
 #include "construct/attempt.h"
 #include "exporters/vdb_samples.h"
-#include "render/render_loop.h"
+#include "render/sample_taker.h"
 #include "spectrum/spectrum.h"
 #include "support/render_scene.h"
 #include "support/temporary_folder.h"
@@ -53,7 +53,8 @@ class Vdb2PbrtLook : public testing::Test {
     for (int i = 0; i < kSide * kSide; ++i) {
       const auto radiance = [&](int x, int y) {
         return static_cast<double>(
-            renderSample(*made.camera, *sampler, *made.integrator, {x, y}, 0, 1, 0, counters).luminance());
+            renderSample(*made.camera, *sampler, test::samplingIntegrator(made), {x, y}, 0, 1, 0, counters)
+                .luminance());
       };
       result.corners += radiance(i % kSide, i / kSide) / (kSide * kSide);
     }
@@ -63,7 +64,8 @@ class Vdb2PbrtLook : public testing::Test {
                           film.min.y + film.height() * 3 / 8 + i / kSide * film.height() / 4 / kSide};
       result.middle +=
           static_cast<double>(
-              renderSample(*made.camera, *sampler, *made.integrator, pixel, 0, 1, 0, counters).luminance()) /
+              renderSample(*made.camera, *sampler, test::samplingIntegrator(made), pixel, 0, 1, 0, counters)
+                  .luminance()) /
           (kSide * kSide);
     }
     result.scatterings = counters.mediumScatterings;

@@ -219,6 +219,42 @@ TEST(LearnedBounds, StartWhereOthersStopped) {
   EXPECT_EQ(second.save(), first.save());
 }
 
+TEST(LearnedBounds, GoOnElsewhereAsIfNothingHadHappened) {
+  const auto look = [](LearnedBounds& bounds, int pass) {
+    Rng rng(kSeed + static_cast<std::uint64_t>(pass));
+    for (int n = 0; n < 40; ++n) {
+      const Vec3d p = Vec3d(rng.uniformDouble(), rng.uniformDouble(), rng.uniformDouble()) * 4;
+      bounds.probe(p, density(p), 1);
+    }
+    bounds.publish();
+  };
+  LearnedBounds whole(lattice(4), {}), second(lattice(4), {}), cached(lattice(4), {});
+  for (int pass = 0; pass < 3; ++pass) look(whole, pass);
+  ASSERT_TRUE(second.fits(whole.state()));
+  second.restore(whole.state());
+  ASSERT_TRUE(cached.restore(whole.save()));
+  EXPECT_EQ(second.isExploring(), whole.isExploring());
+  EXPECT_EQ(second.isRestored(), whole.isRestored());
+  EXPECT_EQ(second.warmUpPasses(), whole.warmUpPasses());
+  EXPECT_EQ(second.progress().maximum, whole.progress().maximum);
+  EXPECT_EQ(second.progress().shortfall, whole.progress().shortfall);
+  for (int pass = 3; pass < 6; ++pass) {
+    for (LearnedBounds* bounds : {&whole, &second, &cached}) look(*bounds, pass);
+  }
+  EXPECT_EQ(second.save(), whole.save());
+  EXPECT_EQ(second.progress().passes, 6u);
+  EXPECT_EQ(second.progress().raised, whole.progress().raised);
+  EXPECT_EQ(second.progress().visited, whole.progress().visited);
+  // Negative control: the bounds alone are not all there is to know.
+  EXPECT_NE(cached.progress().passes, whole.progress().passes);
+  EXPECT_TRUE(cached.isRestored());
+
+  EXPECT_FALSE(LearnedBounds(lattice(3), {}).fits(whole.state()));
+  LearnedBounds::State half = whole.state();
+  half.least.pop_back();
+  EXPECT_FALSE(second.fits(half));
+}
+
 TEST(FieldBounds, CutTheDensityWhereTheyAreLearned) {
   const ConstantField field({.density = 3}, Transform());
   const FieldBounds bounds =

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "base/diagnostics.h"
@@ -36,14 +37,13 @@ Film::Settings sized(int width, int height) {
   return s;
 }
 
-Film cropped(int width, int height, float x0, float x1, float y0, float y1,
-             std::unique_ptr<Filter> filter = box()) {
+Film cropped(int width, int height, float x0, float x1, float y0, float y1, const Filter& filter = *box()) {
   Film::Settings s = sized(width, height);
   s.cropWindow[0] = x0;
   s.cropWindow[1] = x1;
   s.cropWindow[2] = y0;
   s.cropWindow[3] = y1;
-  return Film(s, std::move(filter));
+  return Film(s, filter);
 }
 
 void setSample(SamplePass& pass, Point2i pixel, int s, Point2f offset, Rgb radiance) {
@@ -111,7 +111,7 @@ TEST(FilmBounds, SortAndClampTheCropWindow) {
 
 TEST(FilmBounds, SamplesAreTakenAsFarAsTheFilterReaches) {
   const auto bounds = [](std::unique_ptr<Filter> f) {
-    return cropped(10, 10, 0.2f, 0.8f, 0, 1, std::move(f)).sampleBounds();
+    return cropped(10, 10, 0.2f, 0.8f, 0, 1, *f).sampleBounds();
   };
   EXPECT_EQ(bounds(box(0.5f)), (Bounds2i{{2, 0}, {8, 10}}));
   EXPECT_EQ(bounds(box(0.25f)), (Bounds2i{{2, 0}, {8, 10}}));
@@ -122,23 +122,23 @@ TEST(FilmBounds, SamplesAreTakenAsFarAsTheFilterReaches) {
 
 TEST(FilmSettings, ThatMakeNoPictureAreErrors) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(Film(sized(0, 5), box()), SceneError);
-  EXPECT_THROW(Film(sized(5, -5), box()), SceneError);
-  EXPECT_THROW(Film(sized(1 << 30, 1), box()), SceneError);
+  EXPECT_THROW(Film(sized(0, 5), *box()), SceneError);
+  EXPECT_THROW(Film(sized(5, -5), *box()), SceneError);
+  EXPECT_THROW(Film(sized(1 << 30, 1), *box()), SceneError);
   EXPECT_THROW(cropped(10, 10, 0.5f, 0.5f, 0, 1), SceneError);
   EXPECT_THROW(cropped(10, 10, 0.51f, 0.55f, 0, 1), SceneError);  // no pixel begins between them
   EXPECT_THROW(cropped(10, 10, nan, 1, 0, 1), SceneError);
   Film::Settings s = sized(2, 2);
   s.scale = nan;
-  EXPECT_THROW(Film(s, box()), SceneError);
+  EXPECT_THROW(Film(s, *box()), SceneError);
   s = sized(2, 2);
   s.maxSampleLuminance = -1;
-  EXPECT_THROW(Film(s, box()), SceneError);
+  EXPECT_THROW(Film(s, *box()), SceneError);
 }
 
 TEST(FilmSettings, ThatTakeMoreThanTheMachineHasAreErrorsBeforeMemoryIsTaken) {
   try {
-    const Film film(sized(1 << 20, 1 << 20), box());
+    const Film film(sized(1 << 20, 1 << 20), *box());
     ADD_FAILURE() << "a film of 2^40 pixels";
   } catch (const SceneError& e) {
     EXPECT_NE(std::string(e.what()).find("1048576 x 1048576 pixels"), std::string::npos) << e.what();
@@ -149,7 +149,7 @@ TEST(FilmSettings, ThatTakeMoreThanTheMachineHasAreErrorsBeforeMemoryIsTaken) {
 }
 
 TEST(Film, WithTheDefaultBoxIsThePlainMeanOfAPixelsOwnSamples) {
-  Film film(sized(2, 1), box());
+  Film film(sized(2, 1), *box());
   SamplePass pass(film.sampleBounds(), 2);
   setSample(pass, {0, 0}, 0, {0, 0}, Rgb(1, 2, 3));
   setSample(pass, {0, 0}, 1, {0.99f, 0.5f}, Rgb(3, 2, 1));
@@ -162,20 +162,20 @@ TEST(Film, WithTheDefaultBoxIsThePlainMeanOfAPixelsOwnSamples) {
 }
 
 TEST(Film, UnsampledPixelsAreBlackAndInvalidSamplesDoNotCount) {
-  Film film(sized(2, 1), box());
+  Film film(sized(2, 1), *box());
   SamplePass pass(film.sampleBounds(), 2);
   setSample(pass, {0, 0}, 0, {0.5f, 0.5f}, Rgb(4));
   pass.at({0, 0}, 1).radiance = Rgb(100);  // not valid
   film.accumulate(pass);
   EXPECT_EQ(film.develop().rgb(0, 0), Rgb(4));
   EXPECT_EQ(film.develop().rgb(1, 0), Rgb(0));
-  EXPECT_EQ(film.sums()[1], Film::Sums{});
+  EXPECT_EQ(film.state().sums[1], Film::Sums{});
 }
 
 // [quirk] of PBRT-v3: a weight is the filter at the centre of a cell, 1/8 pixel wide for radius 2.
 TEST(Film, WeightsAreThoseOfTheSixteenBySixteenTable) {
   const TriangleFilter exact({.radius = {2, 2}});
-  Film film(sized(5, 5), std::make_unique<TriangleFilter>(TriangleFilter::Params{}));
+  Film film(sized(5, 5), TriangleFilter({}));
   SamplePass pass(film.sampleBounds(), 1);
   setSample(pass, {2, 2}, 0, {0.8f, 0.4f}, Rgb(1));
   film.accumulate(pass);
@@ -187,18 +187,18 @@ TEST(Film, WeightsAreThoseOfTheSixteenBySixteenTable) {
       const float cx = (std::floor(std::abs(dx) * 8) + 0.5f) / 8,
                   cy = (std::floor(std::abs(dy) * 8) + 0.5f) / 8;
       const double expected = inside ? exact.evaluate({cx, cy}) : 0;
-      const Film::Sums& sums = film.sums()[static_cast<std::size_t>(5 * y + x)];
+      const Film::Sums& sums = film.state().sums[static_cast<std::size_t>(5 * y + x)];
       EXPECT_FLOAT_EQ(static_cast<float>(sums.weight), static_cast<float>(expected)) << x << ' ' << y;
       EXPECT_EQ(sums.r, sums.weight);
     }
   }
-  EXPECT_NE(film.sums()[12].weight, exact.evaluate({0.3f, -0.1f}));  // the exact value is another one
+  EXPECT_NE(film.state().sums[12].weight, exact.evaluate({0.3f, -0.1f}));  // the exact value is another one
 }
 
 TEST(Film, WeightsMatchABruteForceSumOverAllSamplesForEveryFilter) {
   for (auto& filter : allFilters()) {
     const Filter* f = filter.get();
-    Film film = cropped(12, 10, 0.25f, 0.75f, 0.2f, 0.9f, std::move(filter));
+    Film film = cropped(12, 10, 0.25f, 0.75f, 0.2f, 0.9f, *filter);
     const SamplePass pass = filled(film, 2, noise);
     film.accumulate(pass);
     const Bounds2i b = film.sampleBounds(), p = film.pixelBounds();
@@ -222,7 +222,8 @@ TEST(Film, WeightsMatchABruteForceSumOverAllSamplesForEveryFilter) {
             }
           }
         }
-        const auto& sums = film.sums()[static_cast<std::size_t>((y - p.min.y) * p.width() + x - p.min.x)];
+        const auto& sums =
+            film.state().sums[static_cast<std::size_t>((y - p.min.y) * p.width() + x - p.min.x)];
         EXPECT_NEAR(sums.weight, weight, 1e-5) << x << ' ' << y;
         EXPECT_NEAR(sums.g, green, 1e-3) << x << ' ' << y;
       }
@@ -232,7 +233,7 @@ TEST(Film, WeightsMatchABruteForceSumOverAllSamplesForEveryFilter) {
 
 TEST(Film, AConstantImageStaysConstantForEveryFilter) {
   for (auto& filter : allFilters()) {
-    Film film(sized(6, 5), std::move(filter));
+    Film film(sized(6, 5), *filter);
     film.accumulate(filled(film, 4, [](Rng&) { return Rgb(0.25f, 1, 3); }));
     const Image image = film.develop();
     for (int y = 0; y < 5; ++y) {
@@ -247,15 +248,15 @@ TEST(Film, AConstantImageStaysConstantForEveryFilter) {
 
 TEST(Film, DoesNotDependOnHowSamplesAreGroupedIntoPasses) {
   for (std::size_t i = 0; i < allFilters().size(); ++i) {
-    Film one(sized(9, 7), std::move(allFilters()[i])), two(sized(9, 7), std::move(allFilters()[i])),
-        three(sized(9, 7), std::move(allFilters()[i]));
+    Film one(sized(9, 7), *allFilters()[i]), two(sized(9, 7), *allFilters()[i]),
+        three(sized(9, 7), *allFilters()[i]);
     const SamplePass all = filled(one, 6, noise);
     one.accumulate(all);
     for (int s = 0; s < 6; ++s) two.accumulate(part(all, s, 1));
     three.accumulate(part(all, 0, 4));
     three.accumulate(part(all, 4, 2));
-    EXPECT_EQ(one.sums(), two.sums()) << i;
-    EXPECT_EQ(one.sums(), three.sums()) << i;
+    EXPECT_EQ(one.state().sums, two.state().sums) << i;
+    EXPECT_EQ(one.state().sums, three.state().sums) << i;
   }
 }
 
@@ -263,17 +264,16 @@ TEST(Film, DoesNotDependOnTheNumberOfThreads) {
   std::vector<Film::Sums> first;
   for (const unsigned threads : {1u, 2u, 5u}) {
     const ThreadLimit limit(threads);
-    Film film(sized(40, 30), std::make_unique<MitchellFilter>(MitchellFilter::Params{}));
+    Film film(sized(40, 30), MitchellFilter({}));
     film.accumulate(filled(film, 2, noise));
-    if (first.empty()) first = film.sums();
-    EXPECT_EQ(film.sums(), first) << threads;
+    if (first.empty()) first = film.state().sums;
+    EXPECT_EQ(film.state().sums, first) << threads;
   }
 }
 
 TEST(Film, ACropIsTheSamePartOfTheWholePicture) {
-  Film whole(sized(20, 10), std::make_unique<GaussianFilter>(GaussianFilter::Params{}));
-  Film crop =
-      cropped(20, 10, 0.25f, 0.75f, 0.3f, 0.8f, std::make_unique<GaussianFilter>(GaussianFilter::Params{}));
+  Film whole(sized(20, 10), GaussianFilter({}));
+  Film crop = cropped(20, 10, 0.25f, 0.75f, 0.3f, 0.8f, GaussianFilter({}));
   whole.accumulate(filled(whole, 3, noise));
   crop.accumulate(filled(crop, 3, noise));
   const Image a = whole.develop(), b = crop.develop();
@@ -288,14 +288,14 @@ TEST(Film, ACropIsTheSamePartOfTheWholePicture) {
 TEST(Film, NegativeLobesAreClampedAfterTheDivisionAndBeforeTheScale) {
   Film::Settings s = sized(5, 1);
   s.scale = 2;
-  Film film(s, std::make_unique<MitchellFilter>(MitchellFilter::Params{}));
+  Film film(s, MitchellFilter({}));
   SamplePass pass(film.sampleBounds(), 1);
   for (int x = 0; x < 5; ++x) setSample(pass, {x, 0}, 0, {0.5f, 0.5f}, x == 2 ? Rgb(100) : Rgb(0));
   setSample(pass, {0, 0}, 0, {0.1f, 0.5f}, Rgb(0));
   setSample(pass, {2, 0}, 0, {0.1f, 0.5f},
             Rgb(100));  // 1.6 pixels from the first centre: in the negative lobe
   film.accumulate(pass);
-  EXPECT_LT(film.sums()[0].r, 0.0);
+  EXPECT_LT(film.state().sums[0].r, 0.0);
   EXPECT_EQ(film.develop().rgb(0, 0), Rgb(0));
   EXPECT_GT(film.develop().rgb(2, 0).r, 100.0f);
 }
@@ -303,7 +303,7 @@ TEST(Film, NegativeLobesAreClampedAfterTheDivisionAndBeforeTheScale) {
 TEST(Film, ScalesEveryPixel) {
   Film::Settings s = sized(1, 1);
   s.scale = 0.5f;
-  Film film(s, box());
+  Film film(s, *box());
   SamplePass pass(film.sampleBounds(), 1);
   setSample(pass, {0, 0}, 0, {0.5f, 0.5f}, Rgb(1, 2, 4));
   film.accumulate(pass);
@@ -311,24 +311,162 @@ TEST(Film, ScalesEveryPixel) {
 }
 
 TEST(Film, SumsKeepSmallSamplesNextToLargeOnes) {
-  Film film(sized(1, 1), box());
+  Film film(sized(1, 1), *box());
   SamplePass pass(film.sampleBounds(), 1);
   setSample(pass, {0, 0}, 0, {0.5f, 0.5f}, Rgb(0x1p24f));
   film.accumulate(pass);
   setSample(pass, {0, 0}, 0, {0.5f, 0.5f}, Rgb(0.5f));  // would vanish in a float sum
   for (int i = 0; i < 64; ++i) film.accumulate(pass);
-  EXPECT_EQ(film.sums()[0].r, 0x1p24 + 32);
+  EXPECT_EQ(film.state().sums[0].r, 0x1p24 + 32);
 }
 
 TEST(Film, RestoresItsSums) {
-  Film film(sized(4, 3), box()), resumed(sized(4, 3), box());
+  Film film(sized(4, 3), *box()), resumed(sized(4, 3), *box());
   const SamplePass all = filled(film, 2, noise);
   film.accumulate(part(all, 0, 1));
-  resumed.restore(film.sums());
+  EXPECT_TRUE(resumed.restore(film.state()));
   film.accumulate(part(all, 1, 1));
   resumed.accumulate(part(all, 1, 1));
-  EXPECT_EQ(film.sums(), resumed.sums());
-  EXPECT_THROW(resumed.restore(std::vector<Film::Sums>(5)), std::invalid_argument);
+  EXPECT_EQ(film.state().sums, resumed.state().sums);
+  Film::State other = film.state();
+  other.sums.resize(5);
+  EXPECT_FALSE(resumed.restore(other));
+  EXPECT_EQ(film.state(), resumed.state()) << "as it was";
+}
+
+// ---- Splats
+
+std::vector<SplatBuffer> oneSplat(Point2f at, Rgb value) {
+  std::vector<SplatBuffer> units(1);
+  units[0].add(at, value);
+  return units;
+}
+
+TEST(Splats, CountInThePixelTheyHitUnderABoxOfAPixel) {
+  Film film(sized(5, 4), *box());
+  film.addSplats(oneSplat({2.25f, 1.75f}, {3, 5, 7}), 2, 1);
+  const Image image = film.develop();
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      EXPECT_EQ(image.rgb(x, y), x == 2 && y == 1 ? Rgb(1.5f, 2.5f, 3.5f) : Rgb(0)) << x << ' ' << y;
+    }
+  }
+  // A second call adds to the sums and to the samples they stand for.
+  film.addSplats(oneSplat({2.25f, 1.75f}, {3, 5, 7}), 4, 1);
+  EXPECT_EQ(film.develop().rgb(2, 1), Rgb(1, 6.f * 5 / 18, 7.f / 3));
+}
+
+TEST(Splats, SpreadAsSamplesDo) {
+  // What a sample weighs in each pixel, a splat brings, over the filter's integral.
+  for (const auto& filter : allFilters()) {
+    Film samples = cropped(30, 26, .2f, .7f, .1f, .9f, *filter),
+         splats = cropped(30, 26, .2f, .7f, .1f, .9f, *filter);
+    const FilterTable table(*filter);
+    Rng rng(5);
+    for (int n = 0; n < 50; ++n) {
+      const Bounds2i b = samples.sampleBounds();
+      const Point2f at{static_cast<float>(b.min.x) + rng.uniform() * static_cast<float>(b.width()),
+                       static_cast<float>(b.min.y) + rng.uniform() * static_cast<float>(b.height())};
+      const Point2i pixel{static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y))};
+      SamplePass pass(b, 1);
+      setSample(pass, pixel, 0, {at.x - static_cast<float>(pixel.x), at.y - static_cast<float>(pixel.y)},
+                Rgb(2));
+      samples.accumulate(pass);
+      splats.addSplats(oneSplat(at, Rgb(2)), 1, 1);
+    }
+    for (std::size_t i = 0; i < samples.state().sums.size(); ++i) {
+      EXPECT_NEAR(splats.state().splats[i].g * table.integral(), samples.state().sums[i].g, 1e-10) << i;
+    }
+  }
+}
+
+TEST(Splats, OutsideTheFilmAreNowhere) {
+  Film film(sized(5, 4), GaussianFilter({}));
+  for (const Point2f at : {Point2f{-3, 1}, Point2f{8.5f, 1}, Point2f{1, -2.5f}, Point2f{1, 6.5f},
+                           Point2f{1e30f, 1}, Point2f{1, -1e30f}})
+    film.addSplats(oneSplat(at, Rgb(1)), 1, 1);
+  for (const Film::SplatSum& s : film.state().splats) EXPECT_EQ(s, Film::SplatSum{});
+  film.addSplats(oneSplat({-1, 1}, Rgb(1)), 1, 1);
+  EXPECT_GT(film.state().splats[5].r, 0) << "beyond the border, within the filter";
+}
+
+TEST(Splats, AreSummedInTheirOrderWhateverTheUnitsAndThreads) {
+  Rng rng(7);
+  std::vector<Splat> all;
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    all.push_back(
+        {{rng.uniform() * 41, rng.uniform() * 90}, Rgb(rng.uniform() * std::exp(20 * rng.uniform())), i});
+  }
+  const auto state = [&](std::size_t units, bool backward, unsigned threads) {
+    const ThreadLimit limit(threads);
+    std::vector<SplatBuffer> buffers(units);
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      const Splat& splat = all[backward ? all.size() - 1 - n : n];
+      buffers[n % units].begin(splat.order);
+      buffers[n % units].add(splat.film, splat.value);
+    }
+    Film film(sized(41, 90), MitchellFilter({}));
+    film.addSplats(buffers, 1, 1);
+    return film.state();
+  };
+  const Film::State one = state(1, false, 1);
+  EXPECT_EQ(one, state(7, true, 1));
+  EXPECT_EQ(one, state(64, false, 5));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].order = all.size() - i;
+  EXPECT_NE(one, state(1, false, 1)) << "negative control: sums of doubles depend on the order";
+}
+
+TEST(Splats, AddToTheMeanOfSamplesAndAreScaledWithThem) {
+  Film::Settings s = sized(2, 1);
+  s.scale = 3;
+  Film film(s, *box());
+  EXPECT_TRUE(film.state().splats.empty()) << "no memory before the first";
+  SamplePass pass(film.sampleBounds(), 1);
+  setSample(pass, {0, 0}, 0, {.5f, .5f}, {1, 2, 3});
+  film.accumulate(pass);
+  film.addSplats(oneSplat({.5f, .5f}, Rgb(4)), 2, 1);
+  EXPECT_EQ(film.develop().rgb(0, 0), Rgb(9, 12, 15));
+  EXPECT_EQ(film.develop().rgb(1, 0), Rgb(0));
+  Film other(s, *box());
+  EXPECT_TRUE(other.restore(film.state()));
+  EXPECT_EQ(other.develop().data(), film.develop().data());
+}
+
+// ---- Layers
+
+TEST(Layers, AreMeansUnderTheFilterAsColoursAre) {
+  Film::Settings s = sized(6, 5);
+  s.layers.add(Layer::Lookups);
+  Film film(s, GaussianFilter({}));
+  SamplePass pass(film.sampleBounds(), 3, film.layers());
+  Rng rng(3);
+  const Bounds2i b = film.sampleBounds();
+  for (int i = 0; i < 3; ++i) {
+    for (int y = b.min.y; y < b.max.y; ++y) {
+      for (int x = b.min.x; x < b.max.x; ++x) {
+        const float value = rng.uniform();
+        setSample(pass, {x, y}, i, {rng.uniform(), rng.uniform()}, Rgb(value));
+        pass.layersAt({x, y}, i).set(Layer::Lookups, value);
+      }
+    }
+  }
+  film.accumulate(pass);
+  const Image image = film.develop();
+  ASSERT_EQ(image.channelCount(), 4u);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 6; ++x) EXPECT_FLOAT_EQ(image.at(x, y, 3), image.at(x, y, 0));
+  }
+}
+
+TEST(Layers, CostNothingWhereNobodyAsksForThem) {
+  Film film(sized(6, 5), *box());
+  SamplePass pass(film.sampleBounds(), 1, film.layers());
+  EXPECT_EQ(pass.layerValues({0, 0}, 0), nullptr);
+  EXPECT_FALSE(pass.layersAt({0, 0}, 0).wants(Layer::Lookups));
+  pass.layersAt({0, 0}, 0).set(Layer::Lookups, 3);
+  film.accumulate(pass);
+  EXPECT_TRUE(film.state().layers.empty());
+  EXPECT_EQ(film.develop().channelCount(), 3u);
 }
 
 TEST(SamplePass, KeepsEachSampleApartAndClears) {
@@ -352,7 +490,7 @@ TEST(SamplePass, KeepsEachSampleApartAndClears) {
 
 class Admission : public testing::Test {
  protected:
-  bool admit(Rgb& radiance) { return Film(settings_, box()).admit(radiance, counters_); }
+  bool admit(Rgb& radiance) { return Film(settings_, *box()).admit(radiance, counters_); }
   bool admits(Rgb radiance) { return admit(radiance); }
   std::uint64_t dropped(DropCause cause) const { return counters_.dropped[static_cast<std::size_t>(cause)]; }
 
@@ -374,7 +512,7 @@ TEST_F(Admission, CountsEachCauseOfADrop) {
 
 TEST_F(Admission, KeepsNegativesWhereEstimatorsHaveThem) {
   settings_.maxSampleLuminance = 2;
-  Film film(settings_, box());
+  Film film(settings_, *box());
   film.keepNegatives();
   Rgb below(-1), farBelow(-8), notANumber(std::numeric_limits<float>::quiet_NaN()), infinite(-kInfinity);
   EXPECT_TRUE(film.admit(below, counters_));

@@ -10,6 +10,7 @@
 
 #include "image/image.h"
 #include "support/process.h"
+#include "support/source_dir.h"
 #include "support/temporary_folder.h"
 
 namespace pbrtmedia::test {
@@ -204,6 +205,33 @@ TEST_F(Pbrt, PrintsHelpAndEndsWell) {
                              "--compression", "--strict", "--lenient", "--verbose"}) {
     EXPECT_NE(r.output.find(option), std::string::npos) << option;
   }
+}
+
+TEST_F(Pbrt, TakesEveryOptionWithOneDashAsPbrtDoes) {
+  folder_.write("a.pbrt", kScene);
+  EXPECT_EQ(pbrt("-quick -outfile=one.exr -nthreads 1 -tile-size 8 a.pbrt").status, 0);
+  EXPECT_TRUE(folder_.has("one.exr"));
+  EXPECT_EQ(pbrt("-version").status, 0);
+  EXPECT_EQ(pbrt("-quicker a.pbrt").status, 1);
+}
+
+TEST_F(Pbrt, PrintsEveryOptionThatTheReadmeTells) {
+  const std::string help = pbrt("--help").output;
+  std::ifstream readme(test::sourceDir() / "README.md");
+  int options = 0;
+  bool isTable = false;
+  for (std::string line; std::getline(readme, line);) {
+    if (line == "| option | meaning |") isTable = true;
+    if (line.empty()) isTable = false;
+    const std::string names = line.substr(0, line.find(" | "));
+    for (std::size_t at = isTable ? names.find("`--") : std::string::npos; at != std::string::npos;
+         at = names.find("`--", at + 1)) {
+      const std::string name = names.substr(at + 1, names.find_first_of(" `", at + 1) - at - 1);
+      EXPECT_NE(help.find(name), std::string::npos) << name;
+      ++options;
+    }
+  }
+  EXPECT_GT(options, 15);
 }
 
 TEST_F(Pbrt, RejectsUnknownOptionsWithTheNearestName) {

@@ -98,7 +98,7 @@ std::string faultsOf(const std::string& world) {
                                                  "\"homogeneous\"\n" +
                                                  test::kWhiteEnvironment + world + "WorldEnd\n");
   const RenderResult result =
-      renderFilm(*scene.camera, *scene.sampler, *scene.integrator, *scene.film, RenderOptions());
+      scene.integrator->render(*scene.camera, *scene.sampler, *scene.film, RenderOptions());
   return describeFaults(result, {}, scene.scene.get());
 }
 

@@ -127,8 +127,8 @@ Pixels takeSamples(const std::string& text, const TemporaryFolder& folder, std::
     for (int x = 0; x < kResolution; ++x) {
       RunningStats& stats = pixels.emplace_back();
       for (std::int64_t i = 0; i < samples; ++i) {
-        const Rgb radiance =
-            renderSample(*scene.camera, *sampler, *scene.integrator, {x, y}, i, samples, seed, counters);
+        const Rgb radiance = renderSample(*scene.camera, *sampler, samplingIntegrator(scene), {x, y}, i,
+                                          samples, seed, counters);
         stats.add(static_cast<double>(radiance.g));
       }
     }

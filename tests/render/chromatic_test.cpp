@@ -55,8 +55,8 @@ std::array<RunningStats, 3> render(const std::string& text, std::uint64_t seed) 
   for (int y = 0; y < kResolution; ++y) {
     for (int x = 0; x < kResolution; ++x) {
       for (std::int64_t i = 0; i < kSamples; ++i) {
-        const Rgb radiance =
-            renderSample(*made.camera, *sampler, *made.integrator, {x, y}, i, kSamples, seed, counters);
+        const Rgb radiance = renderSample(*made.camera, *sampler, samplingIntegrator(made), {x, y}, i,
+                                          kSamples, seed, counters);
         for (std::size_t c = 0; c < 3; ++c) channels[c].add(static_cast<double>(radiance[c]));
       }
     }

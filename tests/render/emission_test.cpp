@@ -19,16 +19,16 @@ RunningStats samplesOf(const std::string& text, std::int64_t samples, std::uint6
   if (learningPasses > 0) {
     RenderOptions loop;
     loop.seed = seed + 1000;
-    loop.learners = made.scene->learners();
-    EXPECT_EQ(loop.learners.size(), 1u);
-    renderFilm(*made.camera, *made.sampler, *made.integrator, *made.film, loop);
+    EXPECT_EQ(made.scene->learners().size(), 1u);
+    made.integrator->render(*made.camera, *made.sampler, *made.film, loop);
   }
   const std::unique_ptr<Sampler> sampler = made.sampler->clone();
   RenderCounters counters;
   RunningStats stats;
   for (std::int64_t i = 0; i < samples; ++i) {
     stats.add(static_cast<double>(
-        renderSample(*made.camera, *sampler, *made.integrator, {0, 0}, i, samples, seed, counters).r));
+        renderSample(*made.camera, *sampler, samplingIntegrator(made), {0, 0}, i, samples, seed, counters)
+            .r));
   }
   EXPECT_EQ(counters.droppedTotal(), 0u);
   EXPECT_EQ(counters.mediumMismatches, 0u);

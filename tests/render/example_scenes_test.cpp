@@ -55,7 +55,7 @@ TEST_P(ExampleScene, IsRenderedAsItStands) {
     const Point2i pixel{pixels.min.x + (2 * (i % kEach) + 1) * (pixels.max.x - pixels.min.x) / (2 * kEach),
                         pixels.min.y + (2 * (i / kEach) + 1) * (pixels.max.y - pixels.min.y) / (2 * kEach)};
     const Rgb radiance =
-        renderSample(*scene.camera, *sampler, *scene.integrator, pixel, 0, 1, /*seed=*/0, counters);
+        renderSample(*scene.camera, *sampler, samplingIntegrator(scene), pixel, 0, 1, /*seed=*/0, counters);
     luminances.add(static_cast<double>(radiance.luminance()));
   }
   EXPECT_GT(luminances.mean(), 0);
@@ -153,7 +153,7 @@ TEST(DocumentedExample, ShowsAShapeAsItStands) {
       double luminance = 0;
       for (int n = 0; n < kSamples; ++n) {
         luminance += static_cast<double>(
-            renderSample(*scene.camera, *sampler, *scene.integrator, pixel, n, kSamples, 0, counters)
+            renderSample(*scene.camera, *sampler, samplingIntegrator(scene), pixel, n, kSamples, 0, counters)
                 .luminance());
       }
       luminances.add(luminance / kSamples);

@@ -36,7 +36,7 @@ TEST(NegativeSamples, WouldBeMissed) {
   int negatives = 0;
   for (std::int64_t i = 0; i < 4000; ++i) {
     const Rgb radiance =
-        renderSample(*scene.camera, *sampler, *scene.integrator, {1, 1}, i, 4000, 3, counters);
+        renderSample(*scene.camera, *sampler, samplingIntegrator(scene), {1, 1}, i, 4000, 3, counters);
     negatives += radiance.g < 0;
     cut.add(static_cast<double>(std::max(0.0f, radiance.g)));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/render_state.h"
 #include "support/render_scene.h"
 
 namespace pbrtmedia::test {
@@ -66,14 +67,12 @@ Rendered continued(const std::string& text, int learningPasses, std::uint64_t se
                      second = constructText(text, {.seed = seed});
   RenderOptions loop;
   loop.seed = seed + 1000;
-  loop.learners = first.scene->learners();
-  renderFilm(*first.camera, *first.sampler, *first.integrator, *first.film, loop);
+  first.integrator->render(*first.camera, *first.sampler, *first.film, loop);
   loop.seed = seed;
-  loop.learners = second.scene->learners();
-  EXPECT_TRUE(
-      loop.learners[0]->learnedBounds()->restore(first.scene->learners()[0]->learnedBounds()->save()));
+  EXPECT_TRUE(second.scene->learners()[0]->learnedBounds()->restore(
+      first.scene->learners()[0]->learnedBounds()->save()));
   Rendered rendered;
-  rendered.result = renderFilm(*second.camera, *second.sampler, *second.integrator, *second.film, loop);
+  rendered.result = second.integrator->render(*second.camera, *second.sampler, *second.film, loop);
   rendered.image = second.film->develop();
   return rendered;
 }
@@ -89,10 +88,16 @@ TEST(Progressive, FindsANeedleOfUnknownHeight) {
   EXPECT_LT(many, few / 8);
   // Negative control: without publication nothing is learned.
   const Construction made = constructText(scene, {.seed = 1});
-  RenderOptions loop;
-  loop.seed = 1;
-  renderFilm(*made.camera, *made.sampler, *made.integrator, *made.film, loop);
-  const ZTest unlearned = zTest(pixelsOf(made.film->develop()), kNeedle, 1);
+  const std::unique_ptr<Sampler> sampler = made.sampler->clone();
+  RenderCounters counters;
+  RunningStats samples;
+  for (std::int64_t i = 0; i < 64 * 128; ++i) {
+    const Point2i pixel{static_cast<int>(i % 24), static_cast<int>(i / 24 % 24)};
+    samples.add(static_cast<double>(
+        renderSample(*made.camera, *sampler, samplingIntegrator(made), pixel, i / (24 * 24), 128, 1, counters)
+            .r));
+  }
+  const ZTest unlearned = zTest(samples, kNeedle, 1);
   EXPECT_GT(std::abs(unlearned.z()), kMaxAbsZ) << unlearned;
 }
 
@@ -197,6 +202,36 @@ TEST_P(ProgressiveImage, DependsOnNoThreadAfterAWarmUp) {
   EXPECT_NE(one.image.data(), renderText(scene, {.seed = 6}).image.data());
 }
 
+TEST_P(ProgressiveImage, GoesOnElsewhereToTheSameBits) {
+  for (const std::string& bounds : {kUnknown, kExplored}) {
+    const std::string scene = cube(13, 7, GetParam().medium(GetParam().ways + bounds));
+    const Construction whole = constructText(scene), first = constructText(scene),
+                       second = constructText(scene), forgetful = constructText(scene);
+    const RenderResult expected = whole.integrator->render(*whole.camera, *whole.sampler, *whole.film, {});
+    RenderState state;
+    first.integrator->render(*first.camera, *first.sampler, *first.film,
+                             {.afterPass = [&](const PassEnd& end) {
+                               state = saveState(*first.scene, *first.film, end.result);
+                               return end.result.completedSamplesPerPixel < 3;
+                             }});
+    ASSERT_TRUE(restoreState(state, *second.scene, *second.film));
+    const RenderResult result =
+        second.integrator->render(*second.camera, *second.sampler, *second.film, {.start = &state});
+    EXPECT_EQ(second.film->state(), whole.film->state());
+    EXPECT_EQ(result.counters.densityLookups, expected.counters.densityLookups);
+    ASSERT_EQ(result.learning[0].passes.size(), 7u);
+    EXPECT_EQ(result.learning[0].warmUpLookups, expected.learning[0].warmUpLookups);
+    EXPECT_EQ(result.learning[0].shortfall, expected.learning[0].shortfall);
+    EXPECT_EQ(result.learning[0].passes[6].visited, expected.learning[0].passes[6].visited);
+    // Negative control: with the film alone, the passes that are left learn anew.
+    ASSERT_TRUE(forgetful.film->restore(state.film));
+    forgetful.integrator->render(*forgetful.camera, *forgetful.sampler, *forgetful.film, {.firstSample = 3});
+    if (bounds == kUnknown) {
+      EXPECT_NE(forgetful.film->state(), whole.film->state());
+    }
+  }
+}
+
 TEST(Progressive, AWarmUpFindsTheNeedle) {
   RunningStats few;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
@@ -267,9 +302,8 @@ TEST(Progressive, TheShortfallIsTheShareOfExtinctionAboveTheBounds) {
 LearningRecord recordOfFirstPass(const std::string& text) {
   const Construction made = constructText(text);
   RenderOptions loop;
-  loop.learners = made.scene->learners();
-  loop.afterPass = [](const RenderProgress&) { return false; };
-  return renderFilm(*made.camera, *made.sampler, *made.integrator, *made.film, loop).learning[0];
+  loop.afterPass = [](const PassEnd&) { return false; };
+  return made.integrator->render(*made.camera, *made.sampler, *made.film, loop).learning[0];
 }
 
 TEST(Progressive, AWarmUpIsASmallPartOfTheRender) {
@@ -318,10 +352,9 @@ TEST(Progressive, AWarmUpOfBlocksIsRightFromTheFirstSampleToo) {
 TEST(Progressive, AWarmUpStopsWithTheRender) {
   const Construction made = constructText(cube(8, 2, perlin(kExplored)));
   RenderOptions loop;
-  loop.learners = made.scene->learners();
   const std::atomic<bool> stop{true};
   loop.stop = &stop;
-  const RenderResult result = renderFilm(*made.camera, *made.sampler, *made.integrator, *made.film, loop);
+  const RenderResult result = made.integrator->render(*made.camera, *made.sampler, *made.film, loop);
   EXPECT_EQ(result.learning[0].warmUpLookups, 0u);
   EXPECT_TRUE(result.interrupted);
   EXPECT_TRUE(result.learning[0].isRising());
@@ -343,10 +376,9 @@ TEST(Progressive, TakesAPassOfOneSampleOnlyWhereBoundsAreLearned) {
   for (const auto& [bounds, expected] : {std::pair(std::string(), 1), {kUnknown, 8}}) {
     const Construction made = constructText(cube(8, 8, grid(bounds)));
     RenderOptions loop;
-    loop.learners = made.scene->learners();
     passes = 0;
-    loop.afterPass = [&](const RenderProgress&) { return ++passes > 0; };
-    renderFilm(*made.camera, *made.sampler, *made.integrator, *made.film, loop);
+    loop.afterPass = [&](const PassEnd&) { return ++passes > 0; };
+    made.integrator->render(*made.camera, *made.sampler, *made.film, loop);
     EXPECT_EQ(passes, expected);
   }
 }

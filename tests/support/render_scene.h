@@ -14,7 +14,7 @@
 #include "base/parallel.h"
 #include "construct/construct.h"
 #include "image/image.h"
-#include "render/render_loop.h"
+#include "render/sample_taker.h"
 #include "scene/parser.h"
 #include "support/running_stats.h"
 #include "support/source_dir.h"
@@ -64,6 +64,11 @@ inline Construction constructText(const std::string& text, const RenderSettings&
   return constructDescription(world, settings, diagnostics);
 }
 
+/// The integrator of a scene that has one which estimates radiance along rays, for renderSample.
+inline const SamplingIntegrator& samplingIntegrator(const Construction& scene) {
+  return dynamic_cast<const SamplingIntegrator&>(*scene.integrator);
+}
+
 inline Rendered renderDescription(SceneDescription& description, const RenderSettings& settings,
                                   Diagnostics& diagnostics) {
   const ThreadLimit threads(settings.threads);
@@ -72,9 +77,8 @@ inline Rendered renderDescription(SceneDescription& description, const RenderSet
   loop.seed = settings.seed;
   loop.tileSize = settings.tileSize;
   loop.pixelBounds = scene.pixelBounds;
-  loop.learners = scene.scene->learners();
   Rendered rendered;
-  rendered.result = renderFilm(*scene.camera, *scene.sampler, *scene.integrator, *scene.film, loop);
+  rendered.result = scene.integrator->render(*scene.camera, *scene.sampler, *scene.film, loop);
   rendered.image = scene.film->develop();
   rendered.warnings = diagnostics.format();
   return rendered;

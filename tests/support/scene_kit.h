@@ -14,7 +14,7 @@
 #include "lights/point.h"
 #include "materials/matte.h"
 #include "media/homogeneous.h"
-#include "render/integrator.h"
+#include "render/sampling_integrator.h"
 #include "samplers/random.h"
 #include "shapes/sphere.h"
 #include "shapes/triangle_mesh.h"
@@ -107,14 +107,14 @@ inline std::unique_ptr<const LightSelector> uniformSelectorWithMedia(const Scene
   return makeLightSelector(LightStrategy::Uniform, scene.lightsWithMedia(), scene.bounds());
 }
 
-inline std::unique_ptr<Integrator> makePath(const Scene& scene, PathParams params = {}) {
+inline std::unique_ptr<SamplingIntegrator> makePath(const Scene& scene, PathParams params = {}) {
   return std::make_unique<PathIntegrator>(scene, params, uniformSelector(scene));
 }
 /// Outside of everything: where tests without a camera have theirs.
 inline constexpr Point3f kFarAway{50, 60, 70};
 
-inline std::unique_ptr<Integrator> makeVolPath(const Scene& scene, PathParams params = {},
-                                               std::optional<const Medium*> camera = nullptr) {
+inline std::unique_ptr<SamplingIntegrator> makeVolPath(const Scene& scene, PathParams params = {},
+                                                       std::optional<const Medium*> camera = nullptr) {
   return std::make_unique<VolPathIntegrator>(scene, params, uniformSelectorWithMedia(scene),
                                              CameraMedium(scene, kFarAway, 0, camera));
 }
@@ -132,7 +132,7 @@ struct Estimates {
   RenderCounters counters;
   std::vector<Rgb> values;  ///< the first few
 };
-inline Estimates estimate(const Integrator& integrator, const Ray& ray, std::uint64_t n,
+inline Estimates estimate(const SamplingIntegrator& integrator, const Ray& ray, std::uint64_t n,
                           std::uint64_t seed = 1) {
   Estimates result;
   RandomSampler sampler({.pixelSamples = 1, .seed = seed});

@@ -58,17 +58,17 @@ Rgb lightOnce(const Scene& scene, const ShadedPoint& point, std::size_t light, P
 }  // namespace
 
 Rgb DirectLightingIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
-  const std::size_t lightCount = scene_.lights().size();
+  const std::size_t lightCount = scene().lights().size();
   const auto lightAll = [&](const ShadedPoint& point, PathSamples& samples) {
     Rgb sum;
     std::vector<Point2f> uLight, uBsdf;
     for (std::size_t i = 0; i < lightCount; ++i) {
-      const auto n = static_cast<std::size_t>(std::max(1, scene_.lights()[i]->sampleCount()));
+      const auto n = static_cast<std::size_t>(std::max(1, scene().lights()[i]->sampleCount()));
       samples.get2DArray(n, uLight);
       samples.get2DArray(n, uBsdf);
       Rgb ofLight;
       for (std::size_t j = 0; j < n; ++j) {
-        ofLight += lightOnce(scene_, point, i, uLight[j], uBsdf[j], context.counters);
+        ofLight += lightOnce(scene(), point, i, uLight[j], uBsdf[j], context.counters);
       }
       sum += ofLight / static_cast<float>(n);
     }
@@ -79,11 +79,11 @@ Rgb DirectLightingIntegrator::radiance(const RayDifferential& ray, SampleContext
     const auto n = static_cast<float>(lightCount);
     const std::size_t i = std::min(static_cast<std::size_t>(samples.get1D() * n), lightCount - 1);
     const Point2f uLight = samples.get2D(), uBsdf = samples.get2D();
-    return n * lightOnce(scene_, point, i, uLight, uBsdf, context.counters);
+    return n * lightOnce(scene(), point, i, uLight, uBsdf, context.counters);
   };
   SpecularRecursion::Lighting lighting = lightAll;
   if (params_.strategy == DirectLightingParams::Strategy::One) lighting = lightOne;
-  return SpecularRecursion(scene_, params_.maxDepth, lighting, context).radiance(ray);
+  return SpecularRecursion(scene(), params_.maxDepth, lighting, context).radiance(ray);
 }
 
 }  // namespace pbrtmedia

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include "render/integrator.h"
+#include "render/sampling_integrator.h"
 #include "world/scene.h"
 
 namespace pbrtmedia {
@@ -18,15 +18,14 @@ struct DirectLightingParams {
 /// Integrator `directlighting`: emission, direct light by multiple importance sampling, and recursion over
 /// perfect specular reflection and transmission. Ignores media; surfaces without material neither scatter nor
 /// block.
-class DirectLightingIntegrator final : public Integrator {
+class DirectLightingIntegrator final : public SamplingIntegrator {
  public:
   DirectLightingIntegrator(const Scene& scene, const DirectLightingParams& params)
-      : scene_(scene), params_(params) {}
+      : SamplingIntegrator(scene), params_(params) {}
   std::string_view typeName() const override { return "directlighting"; }
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
 
  private:
-  const Scene& scene_;
   DirectLightingParams params_;
 };
 

@@ -9,7 +9,7 @@
 #include "integrators/path/path_samples.h"
 #include "lights/light.h"
 #include "materials/bsdf.h"
-#include "render/integrator.h"
+#include "render/sample_context.h"
 #include "world/scene.h"
 #include "world/visibility.h"
 

@@ -8,13 +8,13 @@ namespace pbrtmedia {
 Rgb WhittedIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
   const SpecularRecursion::Lighting lighting = [&](const ShadedPoint& point, PathSamples& samples) {
     Rgb sum;
-    for (std::size_t i = 0; i < scene_.lights().size(); ++i) {
-      const LitSample lit = sampleLight(scene_, point, i, samples.get2D(), context.counters);
+    for (std::size_t i = 0; i < scene().lights().size(); ++i) {
+      const LitSample lit = sampleLight(scene(), point, i, samples.get2D(), context.counters);
       if (!lit.radiance.isBlack()) sum += lit.scattered * lit.radiance / lit.sample.pdf;
     }
     return sum;
   };
-  return SpecularRecursion(scene_, params_.maxDepth, lighting, context).radiance(ray);
+  return SpecularRecursion(scene(), params_.maxDepth, lighting, context).radiance(ray);
 }
 
 }  // namespace pbrtmedia

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include "render/integrator.h"
+#include "render/sampling_integrator.h"
 #include "world/scene.h"
 
 namespace pbrtmedia {
@@ -14,14 +14,14 @@ struct WhittedParams {
 /// Integrator `whitted`: emission, one sample of every light (light sampling only), and recursion over
 /// perfect specular reflection and transmission. Ignores media; surfaces without material neither scatter nor
 /// block.
-class WhittedIntegrator final : public Integrator {
+class WhittedIntegrator final : public SamplingIntegrator {
  public:
-  WhittedIntegrator(const Scene& scene, const WhittedParams& params) : scene_(scene), params_(params) {}
+  WhittedIntegrator(const Scene& scene, const WhittedParams& params)
+      : SamplingIntegrator(scene), params_(params) {}
   std::string_view typeName() const override { return "whitted"; }
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
 
  private:
-  const Scene& scene_;
   WhittedParams params_;
 };
 

@@ -9,13 +9,13 @@ namespace pbrtmedia {
 
 PathIntegrator::PathIntegrator(const Scene& scene, const PathParams& params,
                                std::unique_ptr<const LightSelector> selector)
-    : scene_(scene), params_(params), selector_(std::move(selector)) {
+    : SamplingIntegrator(scene), params_(params), selector_(std::move(selector)) {
   CHECK(selector_ || scene.lights().empty()) << "lights need a selector";
 }
 PathIntegrator::~PathIntegrator() = default;
 
 Rgb PathIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
-  const PathSetup setup{scene_, params_, scene_.lights(), selector_.get(), nullptr, nullptr, false};
+  const PathSetup setup{scene(), params_, scene().lights(), selector_.get(), nullptr, nullptr, false};
   return PathTracer(setup, ray, MediumState(), context).trace();
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "lighting/light_selector.h"
-#include "render/integrator.h"
+#include "render/sampling_integrator.h"
 #include "world/scene.h"
 
 namespace pbrtmedia {
@@ -36,7 +36,7 @@ struct PathParams {
 
 /// Integrator `path`: unidirectional path tracing over surfaces, next-event estimation and multiple
 /// importance sampling. Ignores media; surfaces without material neither scatter nor block. Unbiased.
-class PathIntegrator final : public Integrator {
+class PathIntegrator final : public SamplingIntegrator {
  public:
   /// `selector` may be null when the scene has no lights.
   PathIntegrator(const Scene& scene, const PathParams& params, std::unique_ptr<const LightSelector> selector);
@@ -45,7 +45,6 @@ class PathIntegrator final : public Integrator {
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
 
  private:
-  const Scene& scene_;
   PathParams params_;
   std::unique_ptr<const LightSelector> selector_;
 };

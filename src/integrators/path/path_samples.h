@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/integrator.h"
+#include "render/sample_context.h"
 
 namespace pbrtmedia {
 

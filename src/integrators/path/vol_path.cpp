@@ -9,7 +9,7 @@ namespace pbrtmedia {
 
 VolPathIntegrator::VolPathIntegrator(const Scene& scene, const PathParams& params,
                                      std::unique_ptr<const LightSelector> selector, CameraMedium cameraMedium)
-    : scene_(scene),
+    : SamplingIntegrator(scene),
       params_(params),
       selector_(std::move(selector)),
       cameraMedium_(std::move(cameraMedium)),
@@ -23,13 +23,13 @@ VolPathIntegrator::~VolPathIntegrator() = default;
 
 Rgb VolPathIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
   // Without media and shadowalpha the yes/no occlusion query answers the same and is faster.
-  const MediaTracker* const media = hasMedia_ || scene_.hasShadowAlpha() ? &tracker_ : nullptr;
+  const MediaTracker* const media = hasMedia_ || scene().hasShadowAlpha() ? &tracker_ : nullptr;
   const bool picksDistances = hasMedia_ && !positionLights_.isEmpty() &&
                               params_.mediumLightSampling != MediumLightSampling::Collision;
-  const PathSetup setup{scene_,          params_, scene_.lightsWithMedia(),
+  const PathSetup setup{scene(),         params_, scene().lightsWithMedia(),
                         selector_.get(), media,   picksDistances ? &positionLights_ : nullptr,
                         mediaEmit_};
-  return PathTracer(setup, ray, cameraMedium_.stateFor(ray, scene_, tracker_, context.counters), context)
+  return PathTracer(setup, ray, cameraMedium_.stateFor(ray, scene(), tracker_, context.counters), context)
       .trace();
 }
 

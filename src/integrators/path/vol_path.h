@@ -6,7 +6,7 @@
 #include "integrators/path/path.h"
 #include "lighting/light_selector.h"
 #include "lighting/position_lights.h"
-#include "render/integrator.h"
+#include "render/sampling_integrator.h"
 #include "world/camera_medium.h"
 
 namespace pbrtmedia {
@@ -14,7 +14,7 @@ namespace pbrtmedia {
 /// Integrator `volpath`: path tracing over surfaces and media. Scattering in a medium counts as a bounce,
 /// crossing a boundary without material does not. Media that emit are found by the distances at which paths
 /// look for emission and, being lights, by light samples. Unbiased.
-class VolPathIntegrator final : public Integrator {
+class VolPathIntegrator final : public SamplingIntegrator {
  public:
   /// `selector` is over Scene::lightsWithMedia(); may be null when that is empty.
   VolPathIntegrator(const Scene& scene, const PathParams& params,
@@ -25,7 +25,6 @@ class VolPathIntegrator final : public Integrator {
   const CameraMedium& cameraMedium() const { return cameraMedium_; }
 
  private:
-  const Scene& scene_;
   PathParams params_;
   std::unique_ptr<const LightSelector> selector_;
   CameraMedium cameraMedium_;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/bounds.h"
+#include "film/layers.h"
+#include "spectrum/rgb.h"
+
+namespace pbrtmedia {
+
+/// The samples of some consecutive sample indices over the film's sample bounds, before filtering. Threads
+/// write disjoint entries; nothing is summed here, so nothing depends on their order.
+class SamplePass {
+ public:
+  struct Sample {
+    Point2f offset;      ///< film position minus the pixel's integer corner, in [0, 1)
+    Rgb radiance;        ///< already multiplied by the camera's ray weight
+    bool valid = false;  ///< false: not taken (stopped early); it then does not count at all
+  };
+  SamplePass(Bounds2i sampleBounds, int samplesPerPixel, const LayerSet& layers = {});
+  Bounds2i bounds() const { return bounds_; }
+  int samplesPerPixel() const { return samples_; }
+  Sample& at(Point2i pixel, int sample) { return data_[index(pixel, sample)]; }
+  const Sample& at(Point2i pixel, int sample) const { return data_[index(pixel, sample)]; }
+  /// Where a sample puts its layers; of no effect where there are none.
+  LayerSample layersAt(Point2i pixel, int sample) {
+    return layers_.isEmpty()
+               ? LayerSample()
+               : LayerSample(layers_, &layerData_[index(pixel, sample) * layers_.channelCount()]);
+  }
+  /// Its values, one for each channel; null where there are none.
+  const float* layerValues(Point2i pixel, int sample) const {
+    return layers_.isEmpty() ? nullptr : &layerData_[index(pixel, sample) * layers_.channelCount()];
+  }
+  void clear();
+
+ private:
+  std::size_t index(Point2i pixel, int sample) const;
+  Bounds2i bounds_;
+  int samples_;
+  LayerSet layers_;
+  std::vector<Sample> data_;
+  std::vector<float> layerData_;  ///< empty without layers
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "render/bounds_learning.h"
+#include "render/pass_report.h"
+#include "render/render_options.h"
+#include "render/render_result.h"
+#include "render/schedule.h"
+
+namespace pbrtmedia {
+
+/// What all renders have in common, whatever their passes do: bounds are explored before the first pass and
+/// published after each, passes follow the schedule until all samples are taken or it is time to stop, their
+/// reports are added up, and who wants to know is told how far the render is.
+class PassLoop {
+ public:
+  struct Plan {
+    std::int64_t end = 0;               ///< sample indices (iterations, mutations per pixel) below it
+    std::uint64_t samplesPerIndex = 0;  ///< usually pixels; 0: nothing is to be taken
+    std::uint64_t pixels = 0;           ///< of which each is to get a sample
+    std::int64_t mostPerPass = 1;       ///< sample indices that a pass may have
+  };
+  /// Takes the samples of one pass, adds them to the film, and answers what each unit of work reports, in a
+  /// fixed order. Leaves soon when shouldStop() says so.
+  using RenderPass = std::function<std::vector<UnitReport>(const Pass&)>;
+
+  /// `scene` and `options` must outlive the object.
+  PassLoop(const Scene& scene, const RenderOptions& options, const Plan& plan);
+
+  RenderResult run(const RenderPass& renderPass);
+
+  /// For passes. Thread-safe.
+  bool shouldStop() const { return schedule_.shouldStop(); }
+  /// Samples that are done, for those who watch. Thread-safe.
+  void count(std::uint64_t samples) { samplesDone_.fetch_add(samples, std::memory_order_relaxed); }
+  /// To be called now and then. Thread-safe.
+  void reportProgress();
+
+ private:
+  static RenderResult resultAtStart(const RenderOptions& options, const Plan& plan);
+  RenderProgress progress() const;
+  bool goesOn();
+
+  const RenderOptions& options_;
+  Plan plan_;
+  RenderResult result_;
+  BoundsLearning learning_;
+  double secondsBefore_;  ///< of an earlier part of the render
+  Schedule schedule_;
+  std::atomic<std::uint64_t> samplesDone_;
+  std::mutex progressMutex_;
+  double lastReport_ = 0;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "base/bounds.h"
+
+namespace pbrtmedia {
+
+struct RenderResult;
+struct RenderState;
+
+/// How far a render is. Samples are camera samples over all pixels.
+struct RenderProgress {
+  std::uint64_t samplesDone = 0, samplesTotal = 0;
+  double seconds = 0;
+};
+
+/// What stands after a pass, when the film holds everything taken so far.
+struct PassEnd {
+  RenderProgress progress;
+  const RenderResult& result;  ///< so far
+};
+
+/// What a render needs to know beyond scene, camera, sampler and film. The number of threads is the caller's
+/// ThreadLimit.
+struct RenderOptions {
+  std::uint64_t seed = 0;  ///< of the Rng of every sample; the sampler has its own copy
+  /// Samples per pixel instead of the sampler's own count.
+  std::optional<std::int64_t> samplesPerPixel = std::nullopt;
+  std::int64_t firstSample = 0;  ///< sample indices below it are taken as done elsewhere
+  std::optional<Bounds2i> pixelBounds = std::nullopt;  ///< further limits where samples are taken
+  int tileSize = 16;                                   ///< pixels; has no effect on the image
+  std::optional<int> samplesPerPass = std::nullopt;    ///< has no effect on the image; default: by memory
+  double timeLimit = std::numeric_limits<double>::infinity();  ///< seconds of rendering
+  const std::atomic<bool>* stop = nullptr;                     ///< set to true: stop soon
+  /// Called on the calling thread after each whole pass. False: stop. What it takes is no time of rendering.
+  std::function<bool(const PassEnd&)> afterPass{};
+  /// Called about ten times a second, from any one thread at a time.
+  std::function<void(const RenderProgress&)> progress{};
+  std::size_t maxRecords = 16;  ///< dropped samples, violations and mismatches that are kept
+  /// Go on from here (restoreState has been called): the result is that of one render, bit for bit. Null:
+  /// from the beginning.
+  const RenderState* start = nullptr;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include "base/pixel_stream.h"
+#include "base/statistics.h"
+#include "film/layers.h"
+#include "samplers/sampler.h"
+
+namespace pbrtmedia {
+
+struct MismatchLog;
+class SplatBuffer;
+
+/// What one camera sample carries through the renderer. Lives on the stack of one thread.
+struct SampleContext {
+  Sampler& sampler;  ///< dimensions that profit from good distribution
+  Rng& rng;          ///< everything of unbounded dimension (tracking, roulette)
+  RenderCounters& counters;
+  MismatchLog* mismatches = nullptr;  ///< where inconsistent boundaries are noted; null: nowhere
+  /// Where integrators of SamplingIntegrator::makesSplats put what light paths bring to other pixels; null
+  /// for the others.
+  SplatBuffer* splats = nullptr;
+  LayerSample layers{};          ///< what the film wants to know besides radiance; nearly always nothing
+  PixelSample pixelSample = {};  ///< what `rng` serves, for patterns over the samples of a pixel
+
+  /// What media draw from.
+  PixelStream stream() { return {rng, pixelSample}; }
+};
+
+}  // namespace pbrtmedia
