@@ -15,6 +15,7 @@ from .problems import CaseError
 from .programs import Renderer
 from .schedule import Entry, Schedule
 from .slices import Slice, SliceStore
+from .terminal import terminal_table
 
 DESCRIPTION = """\
 Compares settings of a renderer: error against seconds, density look-ups and samples.
@@ -136,6 +137,8 @@ def compare(options: argparse.Namespace) -> int:
                "scenes": [tables.scene_json(case, result, where) for result, where in scenes]}
     (out / "report.json").write_text(json.dumps(content, indent=1, default=str) + "\n")
     report.write(out, case, scenes, machine)
+    for result in results:
+        print(terminal_table(case, result))
     print(f"wrote {out / 'report.html'}, and CSV, JSON and PNG files beside it")
     return 1 if any(r.failures for r in results) else 0
 

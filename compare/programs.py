@@ -85,7 +85,7 @@ class Renderer:
         varies = any(word in line for line in self.lines for word in ("{seed}", "{spp}"))
         path = self.work / (f"{self.scene.name}-{self.key}" + (f"-{spp}-{seed}" if varies else "") + ".pbrt")
         if not path.is_file():
-            part = path.with_suffix(".part")
+            part = path.with_name(f"part-{path.name}")
             part.write_bytes(encode(self.text.replace("{seed}", str(seed)).replace("{spp}", str(spp))))
             part.replace(path)
         return path
@@ -125,5 +125,9 @@ class Renderer:
             said = done.stderr.decode("utf-8", "replace").strip() or f"exit status {done.returncode}, no image, no word"
             raise RenderFailure(f"{shlex.join(words)}\n{said}")
         numbers = json.loads(statistics.read_text()) if statistics.is_file() else {}
+        if numbers and len(numbers["renders"]) != 1:
+            raise RenderFailure(f"the scene has {len(numbers['renders'])} worlds, and one image would take the place of the other")
+        if numbers and numbers["renders"][0]["interrupted"]:
+            raise RenderFailure(f"{shlex.join(words)}\nwas stopped by somebody")
         statistics.unlink(missing_ok=True)
         return read_cost(numbers, wall, cpu, spp), numbers

@@ -5,11 +5,13 @@ The record is written after the image and in one step, so that a slice is there 
 program is killed. Its name has all that decides about its pixels: scene, files, program and setting (Renderer.key), samples and seed.
 """
 import dataclasses
+import fcntl
 import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from .problems import CaseError
 from .programs import Cost, Renderer
 
 
@@ -23,9 +25,23 @@ class Slice:
 
 
 class SliceStore:
+    """One process works in a folder at a time. Throws CaseError when another one does."""
+
     def __init__(self, folder: Path):
         self.folder = folder
         folder.mkdir(parents=True, exist_ok=True)
+        self.lock = (folder / "lock").open("w")
+        try:
+            fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as error:
+            self.lock.close()
+            raise CaseError(f"{folder}: another pbrt-compare is at work here") from error
+        for part in folder.glob("part-*"):  # of a run that was killed
+            part.unlink()
+
+    def close(self) -> None:
+        """Lets others work in the folder; so does the end of the process."""
+        self.lock.close()
 
     def image_path(self, renderer: Renderer, seed: int, spp: int) -> Path:
         return self.folder / f"{renderer.key}-{spp}-{seed}.{renderer.setting.image}"
@@ -43,7 +59,7 @@ class SliceStore:
         if found:
             return found
         image = self.image_path(renderer, seed, spp)
-        part = image.with_stem(f"part-{os.getpid()}-{image.stem}")
+        part = image.with_stem(f"part-{image.stem}")
         try:
             cost, statistics = renderer.run(seed, spp, part)
             os.replace(part, image)
@@ -52,7 +68,7 @@ class SliceStore:
             part.with_name(part.name + ".stats.json").unlink(missing_ok=True)
         record = {"scene": str(renderer.scene.file), "setting": renderer.setting.name, "seed": seed, "spp": spp,
                   "command": renderer.shell(seed, spp, image.name), "cost": dataclasses.asdict(cost), "statistics": statistics}
-        written = image.with_suffix(f".{os.getpid()}.part")
+        written = part.with_suffix(".record")
         written.write_text(json.dumps(record, indent=1) + "\n")
         os.replace(written, image.with_suffix(".json"))
         return Slice(seed, spp, cost, image, fresh=True)

@@ -32,6 +32,13 @@ class PixelMaps(unittest.TestCase):
         self.assertGreater(maps.bias_z[3, 0], 5)
         self.assertLess(np.abs(maps.bias_z[:, 1:]).max(), 5)
 
+    def test_variance_of_two_slices_is_half_their_squared_difference(self):
+        images = [self.truth, self.truth + 2]
+        maps = make_maps(images, [self.truth + 1], Reference(self.truth, None), 2, 3.0, np.zeros(SHAPE[:2]))
+        np.testing.assert_allclose(maps.variance, 1)
+        np.testing.assert_allclose(maps.work, 6)
+        np.testing.assert_allclose(maps.bias_z, 1)
+
     def test_worst_pixels_name_the_slice(self):
         images = [self.truth.copy() for _ in range(3)]
         images[2][4, 5] = 11

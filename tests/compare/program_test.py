@@ -131,6 +131,14 @@ class Program(WithProgram):
                                 "--quick")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual({r["setting"] for r in rows(self.folder / "tiny-compare" / "summary.csv")}, {"ratio", "unbiased-ray-marching"})
+        self.assertRegex(done.stdout, r"(?m)^setting +variance x seconds")
+
+    def test_a_scene_of_two_worlds_is_refused(self):
+        world = SCENE[SCENE.index("WorldBegin"):]
+        (self.folder / "two.pbrt").write_text(SCENE + world)
+        done = self.run_program("two.pbrt", "--equal", "samples", "--budget", "4")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the scene has 2 worlds", done.stderr)
 
     def test_mistakes_of_the_command_line_are_told(self):
         done = self.run_program("none.pbrt")

@@ -10,9 +10,11 @@ import numpy as np
 from compare.analysis import SceneAnalysis, group_sizes
 from compare.case import Case, SceneCase, Setting
 from compare.pictures import ImageTool, read_pfm, write_pfm
+from compare.problems import CaseError
 from compare.programs import Cost, RenderFailure
 from compare.schedule import SEEDS_OF_A_RUN, Entry, Schedule
 from compare.slices import SliceStore
+from compare.terminal import terminal_table
 
 TRUTH = np.random.default_rng(0).uniform(0.5, 1, (12, 14, 3))
 
@@ -66,8 +68,16 @@ class WithRenderers(unittest.TestCase):
     def fake(self, name: str, **kinds) -> FakeRenderer:
         return FakeRenderer(self.case, name, log=self.log, **kinds)
 
+    def store(self) -> SliceStore:
+        """As after a kill: nobody holds the folder."""
+        if hasattr(self, "held"):
+            self.held.close()
+        self.held = SliceStore(self.folder)
+        self.addCleanup(self.held.close)
+        return self.held
+
     def schedule(self) -> Schedule:
-        return Schedule(self.case, self.case.scenes[0], SliceStore(self.folder), lambda what, slice_: None)
+        return Schedule(self.case, self.case.scenes[0], self.store(), lambda what, slice_: None)
 
     def entries(self, *renderers: FakeRenderer) -> list[Entry]:
         return [Entry(r.setting, r) for r in renderers]
@@ -103,7 +113,7 @@ class ScheduleTest(WithRenderers):
         for equal, budget in (("samples", 64), ("lookups", 6400)):
             case = dataclasses.replace(self.case, equal=equal, scenes=(dataclasses.replace(self.case.scenes[0], budget=budget),))
             entries = self.entries(self.fake(f"a{equal}"), self.fake(f"b{equal}", cost=1))
-            Schedule(case, case.scenes[0], SliceStore(self.folder), lambda what, slice_: None).compare(entries)
+            Schedule(case, case.scenes[0], self.store(), lambda what, slice_: None).compare(entries)
             for entry in entries:
                 self.assertEqual([[s.spp for s in run.slices] for run in entry.runs], [[16] * 4] * 3)
 
@@ -146,6 +156,16 @@ class ScheduleTest(WithRenderers):
         self.schedule().compare(self.entries(self.fake("a")))
         self.assertEqual([seed for _, seed, _ in self.log], [lost.seed])
 
+    def test_two_do_not_work_in_one_folder(self):
+        store = self.store()
+        (self.folder / "part-a.exr").write_bytes(b"")
+        with self.assertRaisesRegex(CaseError, "another pbrt-compare"):
+            SliceStore(self.folder)
+        self.assertTrue((self.folder / "part-a.exr").exists())
+        store.close()
+        self.store()
+        self.assertFalse((self.folder / "part-a.exr").exists())
+
     def test_a_setting_that_fails_leaves_the_others(self):
         broken = self.fake("b")
         broken.fails = True
@@ -161,7 +181,7 @@ class Judgement(WithRenderers):
     def judged(self, *renderers: FakeRenderer):
         case = dataclasses.replace(self.case, slices=8, repeats=4)
         entries = self.entries(*renderers)
-        schedule = Schedule(case, case.scenes[0], SliceStore(self.folder), lambda what, slice_: None)
+        schedule = Schedule(case, case.scenes[0], self.store(), lambda what, slice_: None)
         schedule.compare(entries)
         reference = Entry(Setting("reference", image="pfm"), self.fake("reference", sigma=0.1))
         schedule.reference(reference)
@@ -196,10 +216,15 @@ class Judgement(WithRenderers):
         self.assertEqual([(r.name, r.biased(), r.tied.get("cpu")) for r in result.results], [("a", False, True), ("c", False, False), ("b", True, None)])
         self.assertEqual(result.results[0].ratios["cpu"].error, 0)
         self.assertLess(result.results[2].ratios["cpu"].value, 0)
+        lines = terminal_table(self.case, result).splitlines()
+        self.assertEqual([line.split()[0] for line in lines[1:]], ["s", "setting", "a", "c", "b"])
+        self.assertIn("1 best", lines[3])
+        self.assertIn("BIASED", lines[5])
 
     def test_equal_renderers_tie(self):
         result = self.judged(self.fake("a"), self.fake("b"))
         self.assertEqual([r.tied["cpu"] for r in result.results], [True, True])
+        self.assertIn(" tie", terminal_table(self.case, result))
 
     def test_an_image_of_another_size_is_left_out_by_name(self):
         entries = self.entries(self.fake("a"))
