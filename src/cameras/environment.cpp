@@ -12,6 +12,7 @@ namespace pbrtmedia {
 
 EnvironmentCamera::EnvironmentCamera(const AnimatedTransform& worldFromCamera, const Params& params)
     : Camera(worldFromCamera, params.shutterOpen, params.shutterClose),
+      film_{params.fullResolution},
       thetaPerPixel_(std::numbers::pi / params.fullResolution.y),
       phiPerPixel_(2 * std::numbers::pi / params.fullResolution.x) {
   const Point2i n = params.fullResolution;
@@ -42,6 +43,42 @@ Camera::WeightedRay EnvironmentCamera::generateRay(Point2f film, Point2f /*lens*
   r.ray.hasDifferentials = true;
   r.ray.time = t;
   return r;
+}
+
+Transform EnvironmentCamera::placedAt(float time) const {
+  return worldFromCamera().isAnimated() ? worldFromCamera().at(time) : worldFromCamera().start();
+}
+
+Importance EnvironmentCamera::seenAlong(const Transform& worldFromCameraNow, Vec3d d) const {
+  const Vec3d c = worldFromCameraNow.inverse().vector(d);
+  const double across = std::hypot(c.x, c.z), size = length(c), phi = std::atan2(c.z, c.x);
+  const std::optional<Point2f> film = film_.at((phi < 0 ? phi + 2 * std::numbers::pi : phi) / phiPerPixel_,
+                                               std::atan2(across, c.y) / thetaPerPixel_);
+  if (!film || !(across > 0)) return {};  // the poles are lines on the film
+  const double inCamera = size / across / (film_.area() * thetaPerPixel_ * phiPerPixel_);
+  const double cameraPerWorld =
+      1 / (std::abs(worldFromCameraNow.matrix().determinant3()) * size * size * size);
+  return {static_cast<float>(inCamera * cameraPerWorld), *film};
+}
+
+Importance EnvironmentCamera::we(const Ray& ray) const { return seenAlong(placedAt(ray.time), Vec3d(ray.d)); }
+
+WePdf EnvironmentCamera::pdfWe(const Ray& ray) const {
+  return {.position = 0, .direction = seenAlong(placedAt(ray.time), Vec3d(ray.d)).value};
+}
+
+WiSample EnvironmentCamera::sampleWi(Point3f reference, Point2f, float time) const {
+  const Transform placed = placedAt(time);
+  const Vec3d from = Vec3d(reference) - placed.point(Vec3d{0, 0, 0});
+  const double distance = length(from);
+  if (!(distance > 0)) return {};
+  const Importance seen = seenAlong(placed, from / distance);
+  if (!(seen.value > 0)) return {};
+  return {.importance = static_cast<float>(double{seen.value} / sqr(distance)),
+          .wi = Vector3f(-from / distance),
+          .distance = static_cast<float>(distance),
+          .pdf = 1,
+          .film = seen.film};
 }
 
 }  // namespace pbrtmedia

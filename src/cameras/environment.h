@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cameras/camera.h"
+#include "cameras/full_film.h"
 
 namespace pbrtmedia {
 
@@ -17,8 +18,16 @@ class EnvironmentCamera final : public Camera {
   EnvironmentCamera(const AnimatedTransform& worldFromCamera, const Params& params);
 
   WeightedRay generateRay(Point2f film, Point2f lens, float time) const override;
+  Importance we(const Ray& ray) const override;
+  WePdf pdfWe(const Ray& ray) const override;
+  WiSample sampleWi(Point3f reference, Point2f lens, float time) const override;
 
  private:
+  Transform placedAt(float time) const;
+  /// What the film sees along unit `d`, per solid angle.
+  Importance seenAlong(const Transform& worldFromCameraNow, Vec3d d) const;
+
+  FullFilm film_;
   double thetaPerPixel_, phiPerPixel_;
 };
 

@@ -2,6 +2,7 @@
 #include "cameras/perspective.h"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -22,6 +23,7 @@ double tanOfHalf(float fov) {
 
 PerspectiveCamera::PerspectiveCamera(const AnimatedTransform& worldFromCamera, const Params& params)
     : Camera(worldFromCamera, params.shutterOpen, params.shutterClose),
+      film_{params.fullResolution},
       screen_(params.fullResolution, params.screenWindow),
       tanHalfFov_(tanOfHalf(params.fov)),
       lensRadius_(params.lensRadius),
@@ -41,9 +43,13 @@ PerspectiveCamera::Placed PerspectiveCamera::place(const Transform& worldFromCam
           .down = worldFromCamera.vector(Vec3d{0, screen_.yPerPixel() * tanHalfFov_, 0})};
 }
 
+PerspectiveCamera::Placed PerspectiveCamera::placedAt(float time) const {
+  return worldFromCamera().isAnimated() ? place(worldFromCamera().at(time)) : fixed_;
+}
+
 Camera::WeightedRay PerspectiveCamera::generateRay(Point2f film, Point2f lens, float time) const {
   const float t = rayTime(time);
-  const Placed placed = worldFromCamera().isAnimated() ? place(worldFromCamera().at(t)) : fixed_;
+  const Placed placed = placedAt(t);
   Vec3d direction = placed.corner + double{film.x} * placed.right + double{film.y} * placed.down;
   Vec3d origin = placed.eye;
   if (lensRadius_ > 0) {
@@ -61,6 +67,64 @@ Camera::WeightedRay PerspectiveCamera::generateRay(Point2f film, Point2f lens, f
   r.ray.hasDifferentials = true;
   r.ray.time = t;
   return r;
+}
+
+// generateRay the other way round: corner + x right + y down - offset / focalDistance = s d with s > 0.
+std::optional<PerspectiveCamera::View> PerspectiveCamera::view(const Placed& placed, Vec3d lensOffset,
+                                                               Vec3d d) const {
+  const auto xys =
+      coefficients(placed.right, placed.down, -d, lensOffset * inverseFocalDistance_ - placed.corner);
+  if (!xys || !(xys->z > 0)) return std::nullopt;
+  const std::optional<Point2f> film = film_.at(xys->x, xys->y);
+  if (!film) return std::nullopt;
+  // A pixel is |right x down| large on the plane that is s away along d.
+  const double pixel = absDot(cross(placed.right, placed.down), d) / sqr(xys->z);
+  return View{*film, 1 / (film_.area() * pixel)};
+}
+
+Importance PerspectiveCamera::we(const Ray& ray) const {
+  const Placed placed = placedAt(ray.time);
+  const Vec3d d(ray.d);
+  const auto seen = view(placed, lensRadius_ > 0 ? Vec3d(ray.o) - placed.eye : Vec3d{}, d);
+  if (!seen) return {};
+  const double lensAcross =
+      lensRadius_ > 0 ? std::numbers::pi * absDot(cross(placed.lensX, placed.lensY), d) : 1;
+  return {static_cast<float>(seen->pdfDirection / lensAcross), seen->film};
+}
+
+WePdf PerspectiveCamera::pdfWe(const Ray& ray) const {
+  const Placed placed = placedAt(ray.time);
+  const auto seen = view(placed, lensRadius_ > 0 ? Vec3d(ray.o) - placed.eye : Vec3d{}, Vec3d(ray.d));
+  if (!seen) return {};
+  const double pdfLens =
+      lensRadius_ > 0 ? 1 / (std::numbers::pi * length(cross(placed.lensX, placed.lensY))) : 0;
+  return {.position = static_cast<float>(pdfLens), .direction = static_cast<float>(seen->pdfDirection)};
+}
+
+WiSample PerspectiveCamera::sampleWi(Point3f reference, Point2f lens, float time) const {
+  const Placed placed = placedAt(time);
+  Vec3d offset{};
+  if (lensRadius_ > 0) {
+    const Point2f disk = sampleConcentricDisk(lens);
+    offset = double{disk.x} * placed.lensX + double{disk.y} * placed.lensY;
+  }
+  const Vec3d from = Vec3d(reference) - (placed.eye + offset);
+  const double distance2 = lengthSquared(from), distance = std::sqrt(distance2);
+  if (!(distance > 0)) return {};
+  const Vec3d d = from / distance;
+  const auto seen = view(placed, offset, d);
+  if (!seen) return {};
+  WiSample s{.importance = static_cast<float>(seen->pdfDirection / distance2),
+             .wi = Vector3f(-d),
+             .distance = static_cast<float>(distance),
+             .pdf = 1,
+             .film = seen->film};
+  if (lensRadius_ > 0) {
+    const double lensAcross = std::numbers::pi * absDot(cross(placed.lensX, placed.lensY), d);
+    s.importance = static_cast<float>(seen->pdfDirection / lensAcross);
+    s.pdf = static_cast<float>(distance2 / lensAcross);
+  }
+  return s;
 }
 
 }  // namespace pbrtmedia

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cameras/camera.h"
+#include "cameras/full_film.h"
 #include "cameras/screen_window.h"
 
 namespace pbrtmedia {
@@ -23,6 +24,9 @@ class PerspectiveCamera final : public Camera {
   PerspectiveCamera(const AnimatedTransform& worldFromCamera, const Params& params);
 
   WeightedRay generateRay(Point2f film, Point2f lens, float time) const override;
+  Importance we(const Ray& ray) const override;
+  WePdf pdfWe(const Ray& ray) const override;
+  WiSample sampleWi(Point3f reference, Point2f lens, float time) const override;
 
  private:
   /// The camera in world space at one time: what a ray is made of.
@@ -32,7 +36,15 @@ class PerspectiveCamera final : public Camera {
     Vec3d corner, right, down;  ///< direction of raster (0, 0) at camera z = 1, and its change per pixel
   };
   Placed place(const Transform& worldFromCamera) const;
+  Placed placedAt(float time) const;
+  /// A ray from the lens seen by the film.
+  struct View {
+    Point2f film;
+    double pdfDirection;
+  };
+  std::optional<View> view(const Placed& placed, Vec3d lensOffset, Vec3d d) const;
 
+  FullFilm film_;
   ScreenFromRaster screen_;
   double tanHalfFov_;
   double lensRadius_, inverseFocalDistance_;
