@@ -21,9 +21,6 @@ namespace {
 
 constexpr int kSeeds = 8;
 constexpr double kMaxMeanDifference = 0.005;  // of the reference's mean
-/// Pixels this many times brighter than the mean (lights in view) are left out of the second comparison, in
-/// which their noise would hide everything else. The reference alone decides which.
-constexpr double kBright = 4;
 /// The squared distance over the variance of our mean image: 1 when the reference has no noise, more with its
 /// noise.
 constexpr double kMaxNoiseRatio = 2;
@@ -65,45 +62,19 @@ TEST_P(Parity, AgreesWithPbrtUpToNoise) {
   ASSERT_EQ(images[0].height(), reference.height());
 
   const PixelDistance distance = pixelDistance(images, reference, 1.0 / kSeeds);
-  double sumReference = 0;
-  for (int y = 0; y < reference.height(); ++y) {
-    for (int x = 0; x < reference.width(); ++x) sumReference += 3.0 * reference.rgb(x, y).average();
-  }
-
-  const std::vector<Image> more = GetParam().samplesOfMean == GetParam().samples
-                                      ? images
-                                      : renderSeeds(scene, kSeeds, GetParam().samplesOfMean);
-  const double limit = kBright * sumReference / (3.0 * reference.width() * reference.height());
-  RunningStats sums, dimSums;  // of all pixels; without those that outshine the rest
-  double dimReference = 0;
-  for (const Image& image : more) {
-    double sum = 0, dim = 0;
-    dimReference = 0;
-    for (int y = 0; y < reference.height(); ++y) {
-      for (int x = 0; x < reference.width(); ++x) {
-        const double ours = 3.0 * image.rgb(x, y).average();
-        sum += ours;
-        if (reference.rgb(x, y).max() > limit) continue;
-        dim += ours;
-        dimReference += 3.0 * reference.rgb(x, y).average();
-      }
-    }
-    sums.add(sum);
-    dimSums.add(dim);
-  }
-  const double meanDifference = (sums.mean() - sumReference) / sumReference;
-  const double standardError = sums.standardError() / sums.mean();
-  const double dimDifference = (dimSums.mean() - dimReference) / dimReference;
-  const double dimError = dimSums.standardError() / dimSums.mean();
-  RecordProperty("meanDifference", std::to_string(meanDifference));
+  const MeanDistance mean =
+      GetParam().samplesOfMean == GetParam().samples
+          ? meanDistance(images, reference)
+          : meanDistance(renderSeeds(scene, kSeeds, GetParam().samplesOfMean), reference);
+  RecordProperty("meanDifference", std::to_string(mean.difference));
   RecordProperty("noiseRatio", std::to_string(distance.squared / distance.variance));
   std::printf(
       "%-18s mean difference %+.4f %% (standard error %.4f %%), dim part %+.4f %% (%.4f %%), squared "
       "distance %.3f of our noise\n",
-      name.c_str(), 100 * meanDifference, 100 * standardError, 100 * dimDifference, 100 * dimError,
-      distance.squared / distance.variance);
-  EXPECT_LT(std::abs(meanDifference), kMaxMeanDifference + 3 * standardError);
-  EXPECT_LT(std::abs(dimDifference), kMaxMeanDifference + 3 * dimError);
+      name.c_str(), 100 * mean.difference, 100 * mean.standardError, 100 * mean.dimDifference,
+      100 * mean.dimError, distance.squared / distance.variance);
+  EXPECT_LT(std::abs(mean.difference), kMaxMeanDifference + 3 * mean.standardError);
+  EXPECT_LT(std::abs(mean.dimDifference), kMaxMeanDifference + 3 * mean.dimError);
   EXPECT_LT(distance.squared, kMaxNoiseRatio * distance.variance);
 }
 

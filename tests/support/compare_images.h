@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "image/image.h"
@@ -32,6 +33,37 @@ inline PixelDistance pixelDistance(std::span<const Image> renders, const Image& 
     }
   }
   return distance;
+}
+
+/// Pixels this many times brighter than the mean (lights in view) are not dim; the reference alone decides.
+inline constexpr double kBright = 4;
+
+/// The mean of independent renders of one scene against a reference, relative to its mean.
+struct MeanDistance {
+  double difference = 0, standardError = 0;  ///< over all pixels; the error is that of the renders alone
+  double dimDifference = 0, dimError = 0;    ///< over the dim ones, whose noise does not hide everything
+};
+inline MeanDistance meanDistance(std::span<const Image> renders, const Image& reference) {
+  const auto sumOf = [&](const Image& image, double limit) {
+    double sum = 0;
+    for (int y = 0; y < reference.height(); ++y) {
+      for (int x = 0; x < reference.width(); ++x) {
+        if (static_cast<double>(reference.rgb(x, y).max()) <= limit)
+          sum += static_cast<double>(image.rgb(x, y).average());
+      }
+    }
+    return sum;
+  };
+  const double infinity = std::numeric_limits<double>::infinity(), whole = sumOf(reference, infinity);
+  const double limit = kBright * whole / (1.0 * reference.width() * reference.height());
+  RunningStats all, dim;
+  for (const Image& image : renders) {
+    all.add(sumOf(image, infinity));
+    dim.add(sumOf(image, limit));
+  }
+  const double dimWhole = sumOf(reference, limit);
+  return {all.mean() / whole - 1, all.standardError() / whole, dim.mean() / dimWhole - 1,
+          dim.standardError() / dimWhole};
 }
 
 }  // namespace pbrtmedia::test
