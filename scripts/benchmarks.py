@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-2-Clause
+"""Keeps the tables of docs/benchmarks.md: nobody types a number there.
+
+  benchmarks.py record FILE...   takes the results of a run into docs/benchmarks/: the JSON of layout_bench or estimator_bench
+                                 (--json FILE), summary.csv of pbrt-compare of one scene. Rows that a run did not measure stay
+  benchmarks.py docs             writes the tables of the page from docs/benchmarks/
+  benchmarks.py check            status 1 if the page has other tables
+"""
+import argparse
+import csv
+import json
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PAGE = "docs/benchmarks.md"
+DATA = "docs/benchmarks"
+AXES = ("samples", "lookups", "seconds")  # that variance times cost is told of
+
+Rows = list[dict[str, str]]
+# Columns that tell the rows of a file apart.
+KEYS = {"layouts": ("grid", "layout"), "estimators": ("field", "estimator"), "renders": ("setting",)}
+
+
+def number(value: float | None, form: str) -> str:
+    return "" if value is None else format(value, form)
+
+
+def from_layouts(report: dict) -> Rows:
+    def row(grid: int, r: dict) -> dict[str, str]:
+        return {"grid": str(grid), "layout": r["layout"],
+                "megabytes": number(r["bytes"] / 1e6 if "bytes" in r else None, ".1f"),
+                "scalar_ns": number(r.get("scalarNs"), ".1f"), "batched_ns": number(r["batchedNs"], ".1f"),
+                "scalar_over_batched": number(r.get("scalarOverBatched"), ".2f"),
+                "linear_scalar_over_batched": number(r["linearScalarOverBatched"], ".2f"),
+                "point_ns": number(r.get("pointNs"), ".0f"), "lines_per_lookup": number(r.get("linesPerLookup"), ".2f"),
+                "limit_ns": number(r.get("limitNs"), ".1f")}
+    return [row(size["samplesPerAxis"], r) for size in report["sizes"] for r in size["rows"]]
+
+
+def from_estimators(report: dict) -> Rows:
+    return [{"field": r["field"], "estimator": r["estimator"], "ns": number(r["nsPerEstimate"], ".0f"),
+             "lookups": number(r["lookups"], ".1f"), "mse": number(r["mse"], ".2g")}
+            for r in report["rows"] if r["field"] != "constant"]
+
+
+def from_renders(rows: Rows) -> Rows:
+    return [{"setting": r["setting"], **{f"variance_x_{a}": number(float(r[f"variance_x_{a}"]), ".4g") for a in AXES}}
+            for r in rows]
+
+
+def machine(report: dict) -> str:
+    e = report["environment"]
+    return f"{e['cpu']}, batches on {e['simd']}; {e['compiler']}, {e['flags']}"
+
+
+def read(root: pathlib.Path, name: str) -> Rows:
+    with (root / DATA / f"{name}.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def record(root: pathlib.Path, path: pathlib.Path) -> str:
+    """Takes the results in; the name of the table they are of."""
+    if path.suffix == ".json":
+        report = json.loads(path.read_text())
+        name, new = ("layouts", from_layouts(report)) if "sizes" in report else ("estimators", from_estimators(report))
+        (root / DATA / f"{name}.txt").write_text(machine(report) + "\n")
+    else:
+        with path.open(newline="") as file:
+            name, new = "renders", from_renders(list(csv.DictReader(file)))
+    fresh = {tuple(r[k] for k in KEYS[name]): r for r in new}
+    merged = [fresh.pop(tuple(r[k] for k in KEYS[name]), r) for r in read(root, name)] + list(fresh.values())
+    with (root / DATA / f"{name}.csv").open("w", newline="") as file:
+        out = csv.DictWriter(file, merged[0].keys(), lineterminator="\n")
+        out.writeheader()
+        out.writerows(merged)
+    return name
+
+
+def table(header: list[str], rows: list[list[str]]) -> str:
+    lines = [header, ["---"] * len(header), *rows]
+    return "".join(("| " + " | ".join(line) + " |").replace("|  |", "| |").replace("|  |", "| |") + "\n" for line in lines)
+
+
+def layouts(rows: Rows) -> str:
+    def line(r: dict[str, str]) -> list[str]:
+        beyond = number(float(r["batched_ns"]) / float(r["limit_ns"]) if r["limit_ns"] else None, ".2f")
+        return [r["grid"] + "³", r["layout"], r["megabytes"], r["scalar_ns"], r["batched_ns"], r["scalar_over_batched"],
+                r["linear_scalar_over_batched"], r["point_ns"], r["lines_per_lookup"], r["limit_ns"], beyond]
+    return table(["grid", "layout", "MB", "scalar ns", "batched ns", "scalar / batched", "vs linear", "points ns",
+                  "lines per look-up", "limit ns", "batched / limit"], [line(r) for r in rows])
+
+
+def estimators(rows: Rows) -> str:
+    fields = {"grid-40-smooth": "smooth 40³", "grid-40-rough": "rough 40³", "grid-256": "256³"}
+    by = {(r["field"], r["estimator"]): r for r in rows}
+
+    def cells(field: str, name: str) -> list[str]:
+        r, base = by.get((field, name)), by[field, "ratio"]
+        if r is None:
+            return ["", "", "", ""]
+        cost, error = float(r["ns"]), float(r["mse"])
+        worth = number(float(base["mse"]) * float(base["ns"]) / (error * cost), ".2g") if error > 0 else "exact"
+        return [r["ns"], r["lookups"], r["mse"], worth]
+
+    names = list(dict.fromkeys(r["estimator"] for r in rows))
+    header = ["estimator", *(text for f in fields.values() for text in (f + ": ns", "look-ups", "mse", "efficiency"))]
+    return table(header, [[name, *(c for f in fields for c in cells(f, name))] for name in names])
+
+
+def renders(rows: Rows) -> str:
+    def line(r: dict[str, str]) -> list[str]:
+        return [f"`{r['setting']}`", *(f"{float(r[c]) / float(rows[0][c]):.2f}" for c in (f"variance_x_{a}" for a in AXES))]
+    return table(["setting", "samples", "look-ups", "seconds"], [line(r) for r in rows])
+
+
+MAKERS = {"layouts": layouts, "estimators": estimators, "renders": renders}
+
+
+def page(root: pathlib.Path, text: str) -> str:
+    """The page with its tables written anew, each between `<!-- table NAME -->` and `<!-- end -->`."""
+    made = {name: make(read(root, name)) for name, make in MAKERS.items()}
+    for name in made:
+        if (said := root / DATA / f"{name}.txt").is_file():
+            made[name] = f"Measured by {said.read_text().strip()}.\n\n" + made[name]
+    parts = re.split(r"(?s)(?<=<!-- table )(\w+)( -->\n).*?(?=<!-- end -->)", text)
+    if sorted(parts[1::3]) != sorted(made):
+        sys.exit(f"error: {PAGE}: expected the tables {', '.join(made)}, found {', '.join(parts[1::3]) or 'none'}")
+    for i in range(1, len(parts), 3):
+        parts[i + 1] += made[parts[i]]
+    return "".join(parts)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    commands.add_parser("record").add_argument("files", nargs="+", type=pathlib.Path)
+    commands.add_parser("docs")
+    commands.add_parser("check")
+    options = parser.parse_args()
+    if options.command == "record":
+        for path in options.files:
+            print(f"{path}: results of {DATA}/{record(ROOT, path)}.csv")
+    text = (ROOT / PAGE).read_text()
+    made = page(ROOT, text)
+    if options.command == "check":
+        if made != text:
+            print(f"{PAGE}: its tables are not what scripts/benchmarks.py docs writes")
+        return int(made != text)
+    (ROOT / PAGE).write_text(made)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-2-Clause
+"""The tables of docs/benchmarks.md must follow from recorded results."""
+import json
+import pathlib
+import shutil
+import tempfile
+import unittest
+
+import benchmarks
+
+
+class Benchmarks(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
+        shutil.copytree(benchmarks.ROOT / benchmarks.DATA, self.root / benchmarks.DATA)
+        self.text = (benchmarks.ROOT / benchmarks.PAGE).read_text()
+
+    def record(self, name: str, text: str) -> str:
+        path = self.root / name
+        path.write_text(text)
+        benchmarks.record(self.root, path)
+        return benchmarks.page(self.root, self.text)
+
+    def test_the_page_is_what_the_command_writes(self):
+        self.assertEqual(benchmarks.page(self.root, self.text), self.text)
+
+    def test_a_typed_number_is_seen(self):
+        row = next(line for line in self.text.splitlines() if line.startswith("| `regular`"))
+        self.assertNotEqual(benchmarks.page(self.root, self.text.replace(row, row.replace("1", "2"))),
+                            self.text.replace(row, row.replace("1", "2")))
+
+    def test_new_results_replace_theirs_and_no_others(self):
+        report = {"environment": {"cpu": "Abacus", "simd": "beads", "compiler": "GNU", "flags": "-O3"},
+                  "rows": [{"field": "grid-256", "estimator": "regular", "nsPerEstimate": 1234.4, "lookups": 5, "mse": 0}]}
+        page = self.record("e.json", json.dumps(report))
+        self.assertIn("| 1234 | 5.0 | 0 | exact |\n", page)
+        self.assertIn("Measured by Abacus, batches on beads; GNU, -O3.\n", page)
+        self.assertEqual(page.count("\n"), self.text.count("\n"))
+
+    def test_work_is_relative_to_the_first_setting(self):
+        page = self.record("summary.csv", "scene,setting,variance_x_samples,variance_x_lookups,variance_x_seconds\n"
+                                          "smoke,ratio,2,8,5\nsmoke,mine,1,2,20\n")
+        self.assertIn("| `ratio` | 1.00 | 1.00 | 1.00 |\n", page)
+        self.assertIn("| `mine` | 0.50 | 0.25 | 4.00 |\n", page)
+
+
+if __name__ == "__main__":
+    unittest.main()
