@@ -95,7 +95,7 @@ CameraMedium findCameraMedium(const SceneDescription& scene, const Construction&
     const bool isGiven = scene.cameraMedium.location.file != nullptr;
     diagnostics.warning(isGiven ? scene.cameraMedium.location : scene.camera.location, warning);
   }
-  if (const Medium* endless = findEndlessMedium(*made.scene, medium, ray.o, ray.time)) {
+  if (const Medium* endless = findEndlessMedium(MediaTopology(*made.scene, medium), ray.o, ray.time)) {
     warnOfEndlessMedium(scene, *made.scene, *endless, diagnostics);
   }
   return medium;
@@ -154,7 +154,7 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
       cameraMedium = findCameraMedium(scene, made, world, diagnostics);
       warnOfMedia(*made.scene, cameraMedium, world, diagnostics);
     }
-    mediaEmit = made.scene->hasEmissiveMedia() || MediaTracker::emits(cameraMedium.state());
+    mediaEmit = made.scene->hasEmissiveMedia() || cameraMedium.state().isEmissive();
     made.integrator = integrator->make(*made.scene, std::move(cameraMedium));
     made.pixelBounds = integrator->pixelBounds;
     const std::vector<Medium*>& media = made.scene->media();

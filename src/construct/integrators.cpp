@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "construct/enum_parameter.h"
 #include "construct/plugins.h"
@@ -51,8 +52,10 @@ IntegratorPlan readPath(ParamReader& in) {
 
 IntegratorPlan readVolPath(ParamReader& in) {
   PathParams p = readPathParams(in);
-  constexpr std::array<std::string_view, 4> kSamplings = {"auto", "collision", "equiangular", "mis"};
-  p.mediumLightSampling = findOwnEnum(in, "mediumlightsampling", kSamplings, p.mediumLightSampling);
+  const std::vector<std::string_view> samplings = alternativeNames<MediumLightSampling>();
+  const std::size_t sampling =
+      findOwnChoice(in, "mediumlightsampling", samplings, p.mediumLightSampling.index());
+  p.mediumLightSampling = findAlternative<MediumLightSampling>(samplings[sampling]).value();
   constexpr std::array<std::string_view, 3> kChannels = {"auto", "shared", "split"};
   p.channelSampling = findOwnEnum(in, "channelsampling", kChannels, ChannelSampling::Auto);
   return {[=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {

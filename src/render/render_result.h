@@ -8,7 +8,7 @@
 #include "base/statistics.h"
 #include "base/vec.h"
 #include "fields/learned_bounds.h"
-#include "world/media_tracker.h"
+#include "world/medium_mismatch.h"
 
 namespace pbrtmedia {
 

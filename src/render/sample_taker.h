@@ -12,7 +12,7 @@
 #include "render/pass_report.h"
 #include "render/render_options.h"
 #include "render/sampling_integrator.h"
-#include "world/media_tracker.h"
+#include "world/medium_mismatch.h"
 
 namespace pbrtmedia {
 

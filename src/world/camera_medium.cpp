@@ -5,7 +5,7 @@
 
 #include "media/medium.h"
 #include "world/boundary_sides.h"
-#include "world/media_walk.h"
+#include "world/line_walk.h"
 #include "world/probe_directions.h"
 
 namespace pbrtmedia {
@@ -90,7 +90,8 @@ Verdict askGeometry(const Scene& scene, Point3f origin, float time) {
 }  // namespace
 
 CameraMedium::CameraMedium(const Scene& scene, Point3f origin, float time, std::optional<const Medium*> given)
-    : origin_(origin), given_(given), followsGeometry_(!given && scene.hasMediumBoundaries()) {
+    : given_(given) {
+  if (!given && scene.hasMediumBoundaries()) origin_ = origin;
   Verdict found;
   if (scene.hasMediumBoundaries()) found = askGeometry(scene, origin, time);
   state_ = found.state;
@@ -118,21 +119,6 @@ CameraMedium::CameraMedium(const Scene& scene, Point3f origin, float time, std::
                         "; camera rays start in " + name);
   }
   state_.setBoundary({medium, nullptr});
-}
-
-MediumState CameraMedium::stateFor(const Ray& ray, const Scene& scene, const MediaTracker& tracker,
-                                   RenderCounters& counters) const {
-  MediumState state = state_;
-  if (!followsGeometry_ || ray.o == origin_) return state;
-  const Vector3f offset = ray.o - origin_;
-  Ray link;
-  link.o = origin_;
-  link.tMax = length(offset);
-  link.d = offset / link.tMax;
-  link.time = ray.time;
-  MediaWalk({scene, &tracker, counters, counters.rays}, state, LineWalk(scene, link, Exclusions{}))
-      .crossAll();
-  return state;
 }
 
 }  // namespace pbrtmedia

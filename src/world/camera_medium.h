@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "world/media_tracker.h"
+#include "world/medium_state.h"
+#include "world/scene.h"
 
 namespace pbrtmedia {
 
@@ -21,20 +22,18 @@ class CameraMedium {
   CameraMedium(const Scene& scene, Point3f origin, float time,
                std::optional<const Medium*> given = std::nullopt);
 
-  /// Start state of a camera ray. Where geometry decides and the ray does not start at `origin` (lens,
-  /// orthographic and moving cameras), the boundaries between the two are crossed.
-  MediumState stateFor(const Ray& ray, const Scene& scene, const MediaTracker& tracker,
-                       RenderCounters& counters) const;
   const MediumState& state() const { return state_; }
+  /// Where `state` was found by geometry; rays that start elsewhere may start in other media
+  /// (MediaTopology::stateOf). Nothing: camera rays start in it wherever they do.
+  std::optional<Point3f> origin() const { return origin_; }
   /// The explicit medium, null when there is none.
   const Medium* given() const { return given_.value_or(nullptr); }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   MediumState state_;
-  Point3f origin_;
+  std::optional<Point3f> origin_;
   std::optional<const Medium*> given_;
-  bool followsGeometry_ = false;
   std::vector<std::string> warnings_;
 };
 

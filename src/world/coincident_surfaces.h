@@ -10,7 +10,7 @@ namespace pbrtmedia {
 
 /// The other surfaces with two different media that pass through the point where a path scatters on a
 /// surface. The path meets none of them as a hit of its own: its next ray starts on them, and which of them
-/// it crosses follows from the sides that it comes from and leaves to (MediaTracker::leaveSurface). A value
+/// it crosses follows from the sides that it comes from and leaves to (MediaTopology::leaveSurface). A value
 /// type.
 class CoincidentSurfaces {
  public:

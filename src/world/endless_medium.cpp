@@ -27,25 +27,25 @@ const Medium* endlessOf(const MediumState& state, const Ray& ray, RenderCounters
   return nullptr;
 }
 
-const Medium* endlessAlong(const Scene& scene, const MediaTracker& tracker, MediumState state,
-                           const Ray& ray) {
+const Medium* endlessAlong(const MediaTopology& media, const Ray& ray) {
   RenderCounters counters;
-  MediaWalk({scene, &tracker, counters, counters.rays}, state, LineWalk(scene, ray, Exclusions{})).crossAll();
+  MediumState state = media.camera().state();
+  const Scene& scene = media.scene();
+  MediaWalk({scene, &media, counters, counters.rays}, state, LineWalk(scene, ray, Exclusions{})).crossAll();
   return endlessOf(state, ray, counters);
 }
 
 }  // namespace
 
-const Medium* findEndlessMedium(const Scene& scene, const CameraMedium& camera, Point3f origin, float time) {
-  if (camera.state().isVacuum() && !scene.hasMediumBoundaries()) return nullptr;
-  const MediaTracker tracker(scene, camera.given());
+const Medium* findEndlessMedium(const MediaTopology& media, Point3f origin, float time) {
+  if (!media.hasMedia()) return nullptr;
   std::map<const Medium*, std::size_t> votes;
   for (const Vector3f direction : kProbeDirections) {
     Ray ray;
     ray.o = origin;
     ray.d = normalize(direction);
     ray.time = time;
-    const Medium* found = endlessAlong(scene, tracker, camera.state(), ray);
+    const Medium* found = endlessAlong(media, ray);
     if (++votes[found] > kProbeDirections.size() / 2) return found;
   }
   return nullptr;

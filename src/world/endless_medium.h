@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include "world/camera_medium.h"
+#include "world/media_topology.h"
 
 namespace pbrtmedia {
 
@@ -9,6 +9,6 @@ namespace pbrtmedia {
 /// sources at infinity cannot shine into it. Asks what rays from the camera at `origin` (world) are in when
 /// they have passed the last surface; where most of several fixed directions agree that is the answer, else
 /// null.
-const Medium* findEndlessMedium(const Scene& scene, const CameraMedium& camera, Point3f origin, float time);
+const Medium* findEndlessMedium(const MediaTopology& media, Point3f origin, float time);
 
 }  // namespace pbrtmedia

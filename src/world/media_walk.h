@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "world/line_walk.h"
-#include "world/media_tracker.h"
+#include "world/media_stretch.h"
+#include "world/media_topology.h"
 #include "world/scatter_point.h"
 
 namespace pbrtmedia {
@@ -25,7 +26,7 @@ class MediaWalk {
   /// What a walk takes part in.
   struct Context {
     const Scene& scene;
-    const MediaTracker* media;  ///< null: media are ignored
+    const MediaTopology* media;  ///< null: media are ignored
     RenderCounters& counters;
     std::uint64_t& queries;             ///< of rays, counted here
     MismatchLog* mismatches = nullptr;  ///< of boundaries; null: not noted
@@ -52,6 +53,8 @@ class MediaWalk {
   const MediumState& state() const { return *state_; }
   double t() const { return t_; }        ///< where the stretch at hand begins
   double tEnd() const { return tEnd_; }  ///< where it ends; after `ahead`
+  /// The stretch at hand; after `ahead`, until the walk goes on.
+  MediaStretch stretch() const { return {*state_, ray(), t_, tEnd_}; }
 
   /// Finds the end of the stretch at hand: the nearest surface, null when there is none before the end of the
   /// ray. Behind the last surface of an endless ray confined media cannot be.

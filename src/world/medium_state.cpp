@@ -76,6 +76,20 @@ void MediumState::refresh() {
   if (highest.medium) active_.push(highest);
 }
 
+bool MediumState::isExponential() const {
+  for (std::size_t i = 0; i < activeCount(); ++i) {
+    if (!active(i).medium->isExponential()) return false;
+  }
+  return true;
+}
+
+bool MediumState::isEmissive() const {
+  for (std::size_t i = 0; i < activeCount(); ++i) {
+    if (active(i).medium->isEmissive()) return true;
+  }
+  return false;
+}
+
 bool MediumState::operator==(const MediumState& o) const {
   if (!(boundary_ == o.boundary_) || entered_.size() != o.entered_.size()) return false;
   for (std::size_t i = 0; i < entered_.size(); ++i) {

@@ -43,6 +43,10 @@ class MediumState {
   std::size_t activeCount() const { return active_.size(); }
   PlacedMedium active(std::size_t i) const { return active_[i]; }
   bool isVacuum() const { return active_.size() == 0; }
+  /// Whether all active media follow the exponential law.
+  bool isExponential() const;
+  /// Whether some active medium emits.
+  bool isEmissive() const;
   /// Same media present, whatever the order of entering.
   bool operator==(const MediumState& o) const;
   /// "smoke + fog", or "vacuum".

@@ -40,7 +40,7 @@ class PassedStretches {
   Rgb transmittance(PixelStream random, RenderCounters& counters) {
     for (const Stretch& s : stretches_) {
       if (through_.isBlack()) break;
-      through_ *= MediaTracker::transmittance(s.state, ray_, s.tMin, s.tMax, random, counters);
+      through_ *= MediaStretch(s.state, ray_, s.tMin, s.tMax).transmittance(random, counters);
     }
     stretches_.clear();
     return through_;
@@ -56,13 +56,13 @@ class PassedStretches {
   Rgb through_{1.0f};
 };
 
-/// The emission of `medium` on a stretch in `state`, seen from the stretch's start.
-Rgb emissionOf(const PlacedMedium& medium, const MediumState& state, const Ray& ray, double tMin, double tMax,
-               PixelStream random, RenderCounters& counters) {
+/// The emission of `medium` on a stretch, seen from the stretch's start.
+Rgb emissionOf(const PlacedMedium& medium, const MediaStretch& stretch, PixelStream random,
+               RenderCounters& counters) {
   Rgb sum;
-  for (std::size_t i = 0; i < state.activeCount(); ++i) {
-    if (!(state.active(i) == medium)) continue;
-    const EmissionSamples found = MediaTracker::sampleEmission(state, i, ray, tMin, tMax, random, counters);
+  for (std::size_t i = 0; i < stretch.state().activeCount(); ++i) {
+    if (!(stretch.state().active(i) == medium)) continue;
+    const EmissionSamples found = stretch.sampleEmission(i, random, counters);
     for (const EmissionSamples::Sample& s : found) sum += s.radiance;
   }
   return sum;
@@ -77,11 +77,9 @@ bool isActive(const PlacedMedium& medium, const MediumState& state) {
 
 }  // namespace
 
-Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
-                   const PlacedMedium& medium, Span<double> span, MediumState state, PixelStream random,
-                   RenderCounters& counters, MismatchLog* log) {
-  MediaWalk walk({scene, &tracker, counters, counters.shadowRays, log}, state,
-                 LineWalk(scene, shadow.ray, shadow.exclusions), shadow.from);
+Rgb shadowEmission(const MediaWalk::Context& context, const ShadowRay& shadow, const PlacedMedium& medium,
+                   Span<double> span, MediumState state, PixelStream random) {
+  MediaWalk walk(context, state, LineWalk(context.scene, shadow.ray, shadow.exclusions), shadow.from);
   const Ray& ray = walk.ray();
   PassedStretches passed(ray);
   Rgb sum;
@@ -91,9 +89,9 @@ Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const Shadow
     const double from = std::max(t, span.tMin), to = std::min(walk.tEnd(), span.tMax);
     if (from < to && isActive(medium, state)) {
       passed.add(state, t, from);
-      const Rgb through = passed.transmittance(random, counters);
+      const Rgb through = passed.transmittance(random, context.counters);
       if (through.isBlack()) return sum;
-      sum += through * emissionOf(medium, state, ray, from, to, random, counters);
+      sum += through * emissionOf(medium, {state, ray, from, to}, random, context.counters);
       t = from;
     }
     passed.add(state, t, walk.tEnd());
@@ -104,17 +102,16 @@ Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const Shadow
   return sum;
 }
 
-Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
-                        MediumState& state, PixelStream random, RenderCounters& counters, MismatchLog* log) {
-  MediaWalk walk({scene, &tracker, counters, counters.shadowRays, log}, state,
-                 LineWalk(scene, shadow.ray, shadow.exclusions), shadow.from);
+Rgb shadowTransmittance(const MediaWalk::Context& context, const ShadowRay& shadow, MediumState& state,
+                        PixelStream random) {
+  MediaWalk walk(context, state, LineWalk(context.scene, shadow.ray, shadow.exclusions), shadow.from);
   const auto blocks = [&](const SceneHit& h) { return h.primitive->material || h.isHider(shadow.hider); };
   Rgb product(1.0f);
   for (;;) {
     const SceneHit* const nearest = walk.ahead();
     if (nearest && blocks(*nearest)) return {};
     if (!state.isVacuum()) {
-      product *= MediaTracker::transmittance(state, walk.ray(), walk.t(), walk.tEnd(), random, counters);
+      product *= walk.stretch().transmittance(random, context.counters);
       if (product.isBlack()) return product;
     }
     const std::optional<SceneHit> hit = walk.next();

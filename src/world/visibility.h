@@ -3,7 +3,7 @@
 
 #include "lights/light.h"
 #include "spectrum/rgb.h"
-#include "world/media_tracker.h"
+#include "world/media_walk.h"
 #include "world/scatter_point.h"
 
 namespace pbrtmedia {
@@ -21,17 +21,18 @@ struct ShadowRay {
 ShadowRay shadowRayTo(const Scene& scene, std::size_t light, const LightSample& sample, Point3f p, float time,
                       const Exclusions& start);
 
+// Walks along shadow rays; `context` is told to count them as such.
+
 /// Radiance that `medium` sends along the shadow ray to its start, from where it is present inside `span`,
 /// dimmed by everything on the way: black when a surface with a material is before it. `ray.tMax` is behind
 /// the span. Unbiased. `state`: of the start.
-Rgb shadowEmission(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
-                   const PlacedMedium& medium, Span<double> span, MediumState state, PixelStream random,
-                   RenderCounters& counters, MismatchLog* log);
+Rgb shadowEmission(const MediaWalk::Context& context, const ShadowRay& shadow, const PlacedMedium& medium,
+                   Span<double> span, MediumState state, PixelStream random);
 
 /// Transmittance of the media along the shadow ray, starting in `state`: black when a surface with a material
 /// is in the way, or `shadow.hider`. Boundaries without material are crossed. shadowalpha does not apply
 /// (closest hits are searched). `state` is then that of the far end.
-Rgb shadowTransmittance(const Scene& scene, const MediaTracker& tracker, const ShadowRay& shadow,
-                        MediumState& state, PixelStream random, RenderCounters& counters, MismatchLog* log);
+Rgb shadowTransmittance(const MediaWalk::Context& context, const ShadowRay& shadow, MediumState& state,
+                        PixelStream random);
 
 }  // namespace pbrtmedia

@@ -6,6 +6,8 @@
 #include "construct/attempt.h"
 #include "lights/light.h"
 #include "materials/material.h"
+#include "media/medium.h"
+#include "media/phase/phase_function.h"
 #include "render/sample_taker.h"
 
 // What constructed objects do, as lists of numbers: two scenes that differ in one parameter must differ here.

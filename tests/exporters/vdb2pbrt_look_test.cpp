@@ -6,6 +6,7 @@
 
 #include "construct/attempt.h"
 #include "exporters/vdb_samples.h"
+#include "media/medium.h"
 #include "render/sample_taker.h"
 #include "spectrum/spectrum.h"
 #include "support/render_scene.h"

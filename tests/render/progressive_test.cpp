@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "media/medium.h"
 #include "render/render_state.h"
 #include "support/render_scene.h"
 

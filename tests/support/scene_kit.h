@@ -19,7 +19,7 @@
 #include "shapes/sphere.h"
 #include "shapes/triangle_mesh.h"
 #include "support/statistics.h"
-#include "world/media_tracker.h"
+#include "world/media_topology.h"
 #include "world/scene_builder.h"
 
 // Small scenes from real parts.

@@ -121,17 +121,13 @@ TEST(CameraMedium, FollowsRaysThatStartElsewhere) {
   const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
   kit.builder.addPrimitive({.shape = kit.box({-1, -1, -1}, {1, 1, 1}), .media = {fog, nullptr}});
   const auto scene = kit.finish();
-  const MediaTracker tracker(*scene);
   RenderCounters counters;
-  const CameraMedium camera(*scene, {0, 0, 5}, 0);
-  EXPECT_EQ(camera.stateFor(rayOf({0, 0, 5}, {0, 0, -1}), *scene, tracker, counters).describe(), "vacuum");
-  EXPECT_EQ(camera.stateFor(rayOf({0.2f, 0.3f, 0.5f}, {0, 0, -1}), *scene, tracker, counters).describe(),
-            "\"fog\"");
-  EXPECT_EQ(camera.stateFor(rayOf({0.2f, 0.3f, -5}, {0, 0, -1}), *scene, tracker, counters).describe(),
-            "vacuum");
-  const CameraMedium given(*scene, {0, 0, 5}, 0, fog);
-  EXPECT_EQ(given.stateFor(rayOf({0.2f, 0.3f, -5}, {0, 0, -1}), *scene, tracker, counters).describe(),
-            "\"fog\"");
+  const MediaTopology camera(*scene, CameraMedium(*scene, {0, 0, 5}, 0));
+  EXPECT_EQ(camera.stateOf(rayOf({0, 0, 5}, {0, 0, -1}), counters).describe(), "vacuum");
+  EXPECT_EQ(camera.stateOf(rayOf({0.2f, 0.3f, 0.5f}, {0, 0, -1}), counters).describe(), "\"fog\"");
+  EXPECT_EQ(camera.stateOf(rayOf({0.2f, 0.3f, -5}, {0, 0, -1}), counters).describe(), "vacuum");
+  const MediaTopology given(*scene, CameraMedium(*scene, {0, 0, 5}, 0, fog));
+  EXPECT_EQ(given.stateOf(rayOf({0.2f, 0.3f, -5}, {0, 0, -1}), counters).describe(), "\"fog\"");
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include "base/warp.h"
 #include "support/scene_kit.h"
-#include "world/media_tracker.h"
+#include "world/media_topology.h"
 
 namespace pbrtmedia {
 namespace {
@@ -77,7 +77,7 @@ TEST_P(ClosedBoundary, KeepsRandomWalksInside) {
   kit.builder.addPrimitive({.shape = shape, .media = {fog, nullptr}});
   kit.sky(1);
   const auto scene = kit.finish();
-  ASSERT_TRUE(MediaTracker(*scene).isConfined(fog));
+  ASSERT_TRUE(MediaTopology(*scene).isConfined(fog));
   const auto integrator = makeVolPath(*scene, {.maxDepth = 1 << 20});
   Rng rng(5);
   RenderCounters counters;
@@ -128,14 +128,14 @@ TEST(ClosedBoundaryEscape, IsPutRight) {
   kit.builder.addPrimitive({.shape = kit.box({-1, -1, -1}, {1, 1, 1}), .media = {fog, nullptr}});
   kit.builder.addPrimitive({.shape = kit.box({-2, -2, -2}, {2, 2, 2}), .media = {smoke, nullptr}});
   const auto scene = kit.finish();
-  const MediaTracker tracker(*scene);
+  const MediaTopology media(*scene);
   MediumState state(PlacedMedium{fog});
   state.enter({smoke});
   RenderCounters counters;
-  tracker.escape(state, counters);
+  media.escape(state, counters);
   EXPECT_TRUE(state.isVacuum());
   EXPECT_EQ(counters.boundaryRepairs, 1u);
-  tracker.escape(state, counters);
+  media.escape(state, counters);
   EXPECT_EQ(counters.boundaryRepairs, 1u);
 }
 

@@ -6,17 +6,10 @@
 
 #include "lighting/light_selector.h"
 #include "render/sampling_integrator.h"
+#include "singlescattering/medium_light_sampling.h"
 #include "world/scene.h"
 
 namespace pbrtmedia {
-
-/// Which points of a medium take light samples of lights that shine from one point.
-enum class MediumLightSampling {
-  Auto,         ///< for each stretch and light the first or the second of these, by an estimate of the noise
-  Collision,    ///< where the path collides
-  Equiangular,  ///< on every stretch in a medium a distance with density proportional to 1/r² from the light
-  Mis,          ///< both, by multiple importance sampling
-};
 
 /// How a path shares the work among channels that a medium treats differently.
 enum class ChannelSampling {
@@ -30,8 +23,8 @@ struct PathParams {
   int maxDepth = 5;                             ///< scattering vertices of a path; 0: visible emission only
   float rrThreshold = 1;                        ///< roulette is played on throughputs below it; 0: never
   std::string lightSampleStrategy = "spatial";  ///< uniform, power or spatial; for whoever makes the selector
-  MediumLightSampling mediumLightSampling = MediumLightSampling::Auto;  ///< `volpath` only
-  ChannelSampling channelSampling = ChannelSampling::Auto;              ///< `volpath` only
+  MediumLightSampling mediumLightSampling = {};             ///< `volpath` only
+  ChannelSampling channelSampling = ChannelSampling::Auto;  ///< `volpath` only
 };
 
 /// Integrator `path`: unidirectional path tracing over surfaces, next-event estimation and multiple

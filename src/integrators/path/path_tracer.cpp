@@ -85,6 +85,10 @@ MediaWalk::Context PathTracer::walkContext() const {
   return {setup_.scene, setup_.media, counters_, counters_.rays, context_.mismatches};
 }
 
+MediaWalk::Context PathTracer::shadowContext() const {
+  return {setup_.scene, setup_.media, counters_, counters_.shadowRays, context_.mismatches};
+}
+
 PathTracer::Event PathTracer::followWay(Way& way) {
   MediaWalk& walk = way.walk;
   for (;;) {
@@ -93,7 +97,7 @@ PathTracer::Event PathTracer::followWay(Way& way) {
     if (seesOnlyEmission()) {
       const bool blocked = nearest && nearest->primitive->material && !nearest->isEmitter();
       if (blocked || (!nearest && setup_.scene.infiniteLights().empty())) {
-        if (setup_.mediaEmit) collectMediumEmission(walk.t(), walk.tEnd());
+        if (setup_.mediaEmit) collectMediumEmission({state_, ray_, walk.t(), walk.tEnd()});
         return Event::End;
       }
     }
@@ -136,31 +140,28 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, Event& event) {
     event = Event::End;
     return false;
   }
-  const double tMin = way.walk.t(), tMax = way.walk.tEnd();
+  const MediaStretch stretch(state_, ray_, way.walk.t(), way.walk.tEnd());
   const BoundaryPlane& start = way.start;
-  if (setup_.mediaEmit) collectMediumEmission(tMin, tMax);
+  if (setup_.mediaEmit) collectMediumEmission(stretch);
   if (seesOnlyEmission()) {
-    beta_ *= MediaTracker::transmittance(state_, ray_, tMin, tMax, context_.stream(), counters_);
+    beta_ *= stretch.transmittance(context_.stream(), counters_);
     return !beta_.isBlack();
   }
-  std::optional<double> extinction;
-  // Under another law, what a stretch scatters is not extinction times transmittance.
-  const bool lightsStretch = setup_.positionLights && MediaTracker::isExponential(state_);
-  if (lightsStretch) {
-    // Media of nothing take no sample: their boundaries leave the image as it is, bit for bit.
-    const double mean = MediaTracker::meanExtinction(state_, ray_, tMin, tMax);
-    if (setup_.params.mediumLightSampling == MediumLightSampling::Auto) extinction = mean;
-    if (mean > 0) lightStretch({ray_, tMin, tMax, extinction}, hit, start);
-  }
-  const MediumFlight flight =
-      MediaTracker::sampleFreeFlight(state_, ray_, tMin, tMax, beta_, context_.stream(), counters_);
+  const std::optional<LitStretch> lit =
+      setup_.singleScattering ? setup_.singleScattering->lit(stretch) : std::nullopt;
+  if (lit) lightStretch(*lit, hit, start);
+  const MediumFlight flight = stretch.sampleFreeFlight(beta_, context_.stream(), counters_);
   beta_ *= flight.weight;
   if (beta_.isBlack()) return false;
   // A path that media have dimmed on its way has little part in the variance. What is seen directly stays
   // exact.
   if (!flight.collided) return !(flight.weight.max() < 1) || bounces_ == 0 || playRoulette(/*inMedium=*/true);
-  medium_ = {
-      mediumPoint(flight.t, tMax, hit, start), flight.phase, flight.t, tMin, tMax, extinction, lightsStretch};
+  medium_ = {mediumPoint(flight.t, stretch.tMax(), hit, start),
+             flight.phase,
+             flight.t,
+             stretch.tMin(),
+             stretch.tMax(),
+             lit ? std::optional(lit->extinction) : std::nullopt};
   if (!isFinite(medium_.at.p)) return false;  // beyond what coordinates can tell: nothing is out there
   event = Event::Medium;
   return false;

@@ -6,9 +6,9 @@
 
 #include "integrators/path/path.h"
 #include "integrators/path/path_samples.h"
-#include "lighting/position_lights.h"
 #include "materials/bsdf.h"
 #include "media/phase/phase_function.h"
+#include "singlescattering/single_scattering.h"
 #include "world/media_walk.h"
 #include "world/visibility.h"
 
@@ -19,10 +19,10 @@ struct PathSetup {
   const Scene& scene;
   const PathParams& params;
   const std::vector<const Light*>& lights;
-  const LightSelector* selector;         ///< of `lights`; null: there are none
-  const MediaTracker* media;             ///< null: media are ignored
-  const PositionLights* positionLights;  ///< those that stretches in media are sampled for; null: none
-  bool mediaEmit;                        ///< some medium may emit
+  const LightSelector* selector;             ///< of `lights`; null: there are none
+  const MediaTopology* media;                ///< null: media are ignored
+  const SingleScattering* singleScattering;  ///< null: collisions alone sample lights in media
+  bool mediaEmit;                            ///< some medium may emit
 };
 
 /// One path of `path` or `volpath`, from the camera to its end. Every vertex takes one light sample, and its
@@ -46,8 +46,7 @@ class PathTracer {
     ScatterPoint at;
     const PhaseFunction* phase;
     double t, tMin, tMax;              ///< on the ray, and the stretch in media that it was sampled on
-    std::optional<double> extinction;  ///< PositionLights::Stretch
-    bool lightsStretch;                ///< lights were sampled for the stretch
+    std::optional<double> extinction;  ///< LitStretch; nothing: no lights were sampled on the stretch
   };
   enum class Event { End, Surface, Medium };
 
@@ -60,6 +59,7 @@ class PathTracer {
   };
 
   MediaWalk::Context walkContext() const;
+  MediaWalk::Context shadowContext() const;
   /// Scatters from `event` on until the path ends; what it has gathered.
   Rgb scatterFrom(Event event);
   // Each path event is one function. Those that return bool tell whether the path goes on.
@@ -69,8 +69,8 @@ class PathTracer {
   bool splitsChannels() const;
   void followChannels(const Way& way);
   ScatterPoint mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
-  void lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
-  void collectMediumEmission(double tMin, double tMax);
+  void lightStretch(const LitStretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
+  void collectMediumEmission(const MediaStretch& stretch);
   void collectEmission(Way& way, const SceneHit& hit, const SurfaceInteraction& si);
   void collectBackground();
   bool scatterOnSurface();

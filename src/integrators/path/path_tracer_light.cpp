@@ -45,12 +45,10 @@ Rgb PathTracer::arriving(const PickedLight& light, Point3f p, const Exclusions& 
     const auto span = emitter->span(p, s.wi, ray_.time);
     if (!span) return {};
     shadow.ray.tMax = s.distance;
-    return shadowEmission(scene, *setup_.media, shadow, emitter->medium(), *span, state, context_.stream(),
-                          counters_, context_.mismatches);
+    return shadowEmission(shadowContext(), shadow, emitter->medium(), *span, state, context_.stream());
   }
   MediumState end = state;
-  return s.radiance * shadowTransmittance(scene, *setup_.media, shadow, end, context_.stream(), counters_,
-                                          context_.mismatches);
+  return s.radiance * shadowTransmittance(shadowContext(), shadow, end, context_.stream());
 }
 
 /// Share of a light sample; what a direction of that density finds accounts for the rest.
@@ -63,16 +61,10 @@ float PathTracer::lightWeight(const PickedLight& light, float directionPdf) cons
 
 /// Share of a collision's sample of a light at one point; `lightStretch` accounts for the rest.
 float PathTracer::collisionShare(std::size_t light, Point3f p) const {
-  if (!medium_.lightsStretch || !setup_.positionLights->contains(light)) return 1;
-  const MediumLightSampling sampling = setup_.params.mediumLightSampling;
-  if (sampling == MediumLightSampling::Equiangular) return 0;
-  const double stretch =
-      setup_.positionLights->pdf(light, {ray_, medium_.tMin, medium_.tMax, medium_.extinction}, medium_.t);
-  if (!(stretch > 0)) return 1;
-  if (sampling == MediumLightSampling::Auto) return 0;
-  const double flight = MediaTracker::flightDensity(state_, ray_, medium_.tMin, medium_.t) *
-                        double{setup_.selector->probability(p, light)};
-  return static_cast<float>(flight / (flight + stretch));
+  if (!medium_.extinction) return 1;
+  const MediaStretch stretch(state_, ray_, medium_.tMin, medium_.tMax);
+  return setup_.singleScattering->collisionShare(setup_.singleScattering->with(stretch, *medium_.extinction),
+                                                 light, medium_.t, p);
 }
 
 void PathTracer::lightSurface(const Bsdf& bsdf) {
@@ -106,38 +98,22 @@ void PathTracer::lightMedium() {
 
 /// Single scattering of a light at one point, at a distance chosen for that light. The flight that follows
 /// may collide and sample the same light: `collisionShare` divides the work.
-void PathTracer::lightStretch(const PositionLights::Stretch& stretch, const SceneHit* hit,
-                              const BoundaryPlane& start) {
+void PathTracer::lightStretch(const LitStretch& stretch, const SceneHit* hit, const BoundaryPlane& start) {
   const float u = samples_.get1D(), v = samples_.get1D();
-  const auto choice = setup_.positionLights->sample(stretch, u, v);
-  if (!choice) return;
-  const ScatterPoint at = mediumPoint(choice->t, stretch.tMax, hit, start);
-  const Point3f p = at.p;
-  if (!isFinite(p)) return;
-  const PickedLight light{choice->light, 1, setup_.lights[choice->light]->sample(p, {})};
-  const LightSample& s = light.sample;
-  if (!(s.pdf > 0) || s.radiance.isBlack()) return;
-  const Rgb scattered = MediaTracker::scattering(state_, ray_, choice->t, -ray_.d, s.wi, counters_);
-  if (scattered.isBlack()) return;
-  double density = choice->pdf;
-  if (setup_.params.mediumLightSampling == MediumLightSampling::Mis) {
-    density += MediaTracker::flightDensity(state_, ray_, stretch.tMin, choice->t) *
-               double{setup_.selector->probability(p, choice->light)};
-  }
-  const Rgb through =
-      MediaTracker::transmittance(state_, ray_, stretch.tMin, choice->t, context_.stream(), counters_);
-  if (through.isBlack()) return;
+  const std::optional<StretchSample> sample = setup_.singleScattering->sample(stretch, {u, v});
+  if (!sample) return;
+  const ScatterPoint at = mediumPoint(sample->t, stretch.media.tMax(), hit, start);
+  if (!isFinite(at.p)) return;
   radiance_ +=
-      beta_ * through * scattered * static_cast<float>(1 / density) * arriving(light, p, {}, state_, &at);
+      setup_.singleScattering->radiance(stretch, *sample, at, beta_, shadowContext(), context_.stream());
 }
 
 /// What the media emit between two surfaces.
-void PathTracer::collectMediumEmission(double tMin, double tMax) {
+void PathTracer::collectMediumEmission(const MediaStretch& stretch) {
   for (std::size_t i = 0; i < state_.activeCount(); ++i) {
     const PlacedMedium m = state_.active(i);
     if (!m.medium->isEmissive()) continue;
-    const EmissionSamples found =
-        MediaTracker::sampleEmission(state_, i, ray_, tMin, tMax, context_.stream(), counters_);
+    const EmissionSamples found = stretch.sampleEmission(i, context_.stream(), counters_);
     if (found.count == 0) continue;
     const std::optional<std::size_t> light = isDirect_ ? std::nullopt : setup_.scene.lightOf(m);
     const MediumLight* const source = light ? setup_.scene.mediumLight(*light) : nullptr;

@@ -12,25 +12,23 @@ VolPathIntegrator::VolPathIntegrator(const Scene& scene, const PathParams& param
     : SamplingIntegrator(scene),
       params_(params),
       selector_(std::move(selector)),
-      cameraMedium_(std::move(cameraMedium)),
-      tracker_(scene, cameraMedium_.given()),
-      positionLights_(scene.lightsWithMedia()),
-      hasMedia_(scene.hasMediumBoundaries() || !cameraMedium_.state().isVacuum()),
-      mediaEmit_(scene.hasEmissiveMedia() || MediaTracker::emits(cameraMedium_.state())) {
+      media_(scene, std::move(cameraMedium)),
+      singleScattering_(scene.lightsWithMedia(), selector_.get(), params.mediumLightSampling) {
   CHECK(selector_ || scene.lightsWithMedia().empty()) << "lights need a selector";
 }
 VolPathIntegrator::~VolPathIntegrator() = default;
 
 Rgb VolPathIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
   // Without media and shadowalpha the yes/no occlusion query answers the same and is faster.
-  const MediaTracker* const media = hasMedia_ || scene().hasShadowAlpha() ? &tracker_ : nullptr;
-  const bool picksDistances = hasMedia_ && !positionLights_.isEmpty() &&
-                              params_.mediumLightSampling != MediumLightSampling::Collision;
-  const PathSetup setup{scene(),         params_, scene().lightsWithMedia(),
-                        selector_.get(), media,   picksDistances ? &positionLights_ : nullptr,
-                        mediaEmit_};
-  return PathTracer(setup, ray, cameraMedium_.stateFor(ray, scene(), tracker_, context.counters), context)
-      .trace();
+  const bool hasMedia = media_.hasMedia();
+  const PathSetup setup{scene(),
+                        params_,
+                        scene().lightsWithMedia(),
+                        selector_.get(),
+                        hasMedia || scene().hasShadowAlpha() ? &media_ : nullptr,
+                        hasMedia ? &singleScattering_ : nullptr,
+                        media_.hasEmission()};
+  return PathTracer(setup, ray, media_.stateOf(ray, context.counters), context).trace();
 }
 
 }  // namespace pbrtmedia

@@ -5,9 +5,9 @@
 
 #include "integrators/path/path.h"
 #include "lighting/light_selector.h"
-#include "lighting/position_lights.h"
 #include "render/sampling_integrator.h"
-#include "world/camera_medium.h"
+#include "singlescattering/single_scattering.h"
+#include "world/media_topology.h"
 
 namespace pbrtmedia {
 
@@ -22,15 +22,13 @@ class VolPathIntegrator final : public SamplingIntegrator {
   ~VolPathIntegrator() override;
   std::string_view typeName() const override { return "volpath"; }
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
-  const CameraMedium& cameraMedium() const { return cameraMedium_; }
+  const CameraMedium& cameraMedium() const { return media_.camera(); }
 
  private:
   PathParams params_;
   std::unique_ptr<const LightSelector> selector_;
-  CameraMedium cameraMedium_;
-  MediaTracker tracker_;
-  PositionLights positionLights_;
-  bool hasMedia_, mediaEmit_;
+  MediaTopology media_;
+  SingleScattering singleScattering_;
 };
 
 }  // namespace pbrtmedia

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "lighting/equiangular.h"
+#include "singlescattering/equiangular.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "world/media_tracker.h"
+#include "world/media_topology.h"
 
 #include <gtest/gtest.h>
 
@@ -19,10 +19,10 @@ using test::SceneKit;
 
 /// Transmittance of the whole line, starting in vacuum.
 Rgb throughScene(const Scene& scene, const Ray& ray, RenderCounters& counters, MismatchLog* log = nullptr) {
-  const MediaTracker tracker(scene);
+  const MediaTopology media(scene);
   Rng rng(1);
   MediumState state;
-  return shadowTransmittance(scene, tracker, {ray, {}}, state, rng, counters, log);
+  return shadowTransmittance({scene, &media, counters, counters.shadowRays, log}, {ray, {}}, state, rng);
 }
 
 /// Two boxes along z: "a" over [0, 2], "b" over [1, 3]; sigma_t 1 and 3.
@@ -43,14 +43,14 @@ struct Overlap {
   RenderCounters counters;
 };
 
-TEST(MediaTracker, AddsOverlappingMediaFromBothEnds) {
+TEST(MediaTopology, AddsOverlappingMediaFromBothEnds) {
   Overlap scene({Mode::Add}, {Mode::Add});
   EXPECT_NEAR(scene.opticalDepth(true), 1 * 2 + 3 * 2, 1e-5);
   EXPECT_NEAR(scene.opticalDepth(false), 1 * 2 + 3 * 2, 1e-5);
   EXPECT_EQ(scene.counters.mediumMismatches, 0u);
 }
 
-TEST(MediaTracker, LetsTheHigherPriorityHideTheLowerFromBothEnds) {
+TEST(MediaTopology, LetsTheHigherPriorityHideTheLowerFromBothEnds) {
   Overlap aWins({Mode::Priority, 2}, {Mode::Priority, 1});
   EXPECT_NEAR(aWins.opticalDepth(true), 1 * 2 + 3 * 1, 1e-5);
   EXPECT_NEAR(aWins.opticalDepth(false), 1 * 2 + 3 * 1, 1e-5);
@@ -59,14 +59,14 @@ TEST(MediaTracker, LetsTheHigherPriorityHideTheLowerFromBothEnds) {
   EXPECT_NEAR(bWins.opticalDepth(false), 1 * 1 + 3 * 2, 1e-5);
 }
 
-TEST(MediaTracker, LetsTheLastBoundaryWinAsPbrtDoesAndCountsTheContradictions) {
+TEST(MediaTopology, LetsTheLastBoundaryWinAsPbrtDoesAndCountsTheContradictions) {
   Overlap scene({Mode::Boundary}, {Mode::Boundary});
   // a over [0, 1], b over [1, 2]; leaving a ends everything.
   EXPECT_NEAR(scene.opticalDepth(true), 1 * 1 + 3 * 1, 1e-5);
   EXPECT_EQ(scene.counters.mediumMismatches, 3u);  // entering b, leaving a, leaving b
 }
 
-TEST(MediaTracker, NotesMismatchesWithNamesAndPlace) {
+TEST(MediaTopology, NotesMismatchesWithNamesAndPlace) {
   Overlap scene({Mode::Boundary}, {Mode::Boundary});
   MismatchLog log{.pixel = {3, 4}, .sample = 5, .capacity = 2, .entries = {}};
   throughScene(*scene.scene, rayOf({0.3f, 0.2f, -1}, {0, 0, 1}), scene.counters, &log);
@@ -77,7 +77,7 @@ TEST(MediaTracker, NotesMismatchesWithNamesAndPlace) {
   EXPECT_NE(text.find("\"a\""), std::string::npos) << text;
 }
 
-TEST(MediaTracker, KeepsFogUnderAnAddedMediumThatNamesNoOther) {
+TEST(MediaTopology, KeepsFogUnderAnAddedMediumThatNamesNoOther) {
   SceneKit kit;
   const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
   const Medium* smoke = kit.fog("smoke", Rgb(3), Rgb(0), {Mode::Add});
@@ -89,7 +89,7 @@ TEST(MediaTracker, KeepsFogUnderAnAddedMediumThatNamesNoOther) {
   EXPECT_EQ(counters.mediumMismatches, 0u);
 }
 
-TEST(MediaTracker, CrossesCoincidentBoundariesExactly) {
+TEST(MediaTopology, CrossesCoincidentBoundariesExactly) {
   SceneKit kit;
   const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
   for (int i = 0; i < 3; ++i) {
@@ -114,7 +114,7 @@ TEST(MediaTracker, CrossesCoincidentBoundariesExactly) {
   EXPECT_EQ(counters.mediumMismatches, 0u);
 }
 
-TEST(MediaTracker, GivesTheChordThroughEdgesAndCorners) {
+TEST(MediaTopology, GivesTheChordThroughEdgesAndCorners) {
   SceneKit kit;
   const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));
   kit.builder.addPrimitive({.shape = kit.box({-1, -1, -1}, {1, 1, 1}), .media = {fog, nullptr}});
@@ -146,7 +146,7 @@ TEST(MediaTracker, GivesTheChordThroughEdgesAndCorners) {
   }
 }
 
-TEST(MediaTracker, LetsAnInterfaceWithoutMaterialBlockNothingAndAMaterialEverything) {
+TEST(MediaTopology, LetsAnInterfaceWithoutMaterialBlockNothingAndAMaterialEverything) {
   SceneKit kit;
   kit.builder.addPrimitive({.shape = kit.square(1, 1)});
   kit.builder.addPrimitive({.shape = kit.square(2, 0.5f), .material = kit.black()});
@@ -156,7 +156,7 @@ TEST(MediaTracker, LetsAnInterfaceWithoutMaterialBlockNothingAndAMaterialEveryth
   EXPECT_EQ(throughScene(*scene, rayOf({0.3f, 0.2f, 0}, {0, 0, 1}), counters), Rgb(0));
 }
 
-TEST(MediaTracker, KnowsWhichMediaAreConfined) {
+TEST(MediaTopology, KnowsWhichMediaAreConfined) {
   SceneKit kit;
   const Medium* ball = kit.fog("ball", Rgb(1), Rgb(0));
   const Medium* outer = kit.fog("outer", Rgb(1), Rgb(0));
@@ -178,16 +178,16 @@ TEST(MediaTracker, KnowsWhichMediaAreConfined) {
     kit.builder.addPrimitive({.shape = kit.quad(a, b, c, d), .media = {patched, nullptr}});
   }
   const auto scene = kit.finish();
-  const MediaTracker tracker(*scene);
-  EXPECT_TRUE(tracker.isConfined(ball));
-  EXPECT_FALSE(tracker.isConfined(outer));
-  EXPECT_FALSE(tracker.isConfined(sheet));
-  EXPECT_FALSE(tracker.isConfined(cavity));
-  EXPECT_TRUE(tracker.isConfined(patched));
-  EXPECT_FALSE(MediaTracker(*scene, ball).isConfined(ball));
+  const MediaTopology media(*scene);
+  EXPECT_TRUE(media.isConfined(ball));
+  EXPECT_FALSE(media.isConfined(outer));
+  EXPECT_FALSE(media.isConfined(sheet));
+  EXPECT_FALSE(media.isConfined(cavity));
+  EXPECT_TRUE(media.isConfined(patched));
+  EXPECT_FALSE(MediaTopology(*scene, CameraMedium(*scene, test::kFarAway, 0, ball)).isConfined(ball));
 }
 
-TEST(MediaTracker, MovesScatterPointsBackToTheirSideOfTheBoundary) {
+TEST(MediaTopology, MovesScatterPointsBackToTheirSideOfTheBoundary) {
   const Ray ray = rayOf({0.25f, 0.5f, 0}, {0.3f, 0.2f, 1});
   RenderCounters counters;
   for (const float z : {0.7f, 1.0f, 3.14159f, 100.0f}) {
@@ -217,7 +217,7 @@ void expectFlightsOfSum(const Medium& a, const Medium& b, Rgb sigmaT, Rgb sigmaS
   Rng rng(seed);
   RenderCounters counters;
   for (int i = 0; i < kFlights; ++i) {
-    const MediumFlight f = MediaTracker::sampleFreeFlight(state, ray, 0, 1, Rgb(1), rng, counters);
+    const MediumFlight f = MediaStretch(state, ray, 0, 1).sampleFreeFlight(Rgb(1), rng, counters);
     const int bin = f.collided ? std::min(static_cast<int>(f.t * kBins), kBins - 1) : kBins;
     for (int k = 0; k <= kBins; ++k) {
       for (std::size_t c = 0; c < 3; ++c)

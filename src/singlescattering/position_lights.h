@@ -7,8 +7,9 @@
 
 #include "base/distribution.h"
 #include "base/ray.h"
-#include "lighting/equiangular.h"
 #include "lights/light.h"
+#include "singlescattering/equiangular.h"
+#include "singlescattering/stretch_sample.h"
 
 namespace pbrtmedia {
 
@@ -31,13 +32,8 @@ class PositionLights {
     /// light is sampled.
     std::optional<double> extinction = std::nullopt;
   };
-  struct Choice {
-    std::size_t light;
-    double t;
-    double pdf;  ///< of this light and this distance together, per length; > 0
-  };
   /// Nothing when no light reaches the stretch. `u`, `v` in [0, 1).
-  std::optional<Choice> sample(const Stretch& stretch, float u, float v) const;
+  std::optional<StretchSample> sample(const Stretch& stretch, float u, float v) const;
   /// Density of `sample` at one of these lights and a distance.
   double pdf(std::size_t light, const Stretch& stretch, double t) const;
 

@@ -2,15 +2,15 @@
 // Light samples in media of lights that shine from one point, by every way of choosing where.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <functional>
+#include <vector>
 
-#include "lighting/position_lights.h"
 #include "lights/distant.h"
 #include "lights/projection.h"
 #include "lights/spot.h"
 #include "media/grid_medium.h"
+#include "singlescattering/position_lights.h"
 #include "support/scene_kit.h"
 
 namespace pbrtmedia {
@@ -18,14 +18,18 @@ namespace {
 
 using namespace test;
 using Sampling = MediumLightSampling;
-constexpr std::array kSamplings = {Sampling::Auto, Sampling::Collision, Sampling::Equiangular, Sampling::Mis};
-
-std::string nameOf(Sampling s) {
-  return s == Sampling::Auto          ? "auto"
-         : s == Sampling::Collision   ? "collision"
-         : s == Sampling::Equiangular ? "equiangular"
-                                      : "mis";
+std::vector<Sampling> allSamplings() {
+  std::vector<Sampling> all;
+  for (const std::string_view name : alternativeNames<Sampling>())
+    all.push_back(*findAlternative<Sampling>(name));
+  return all;
 }
+std::vector<Sampling> samplingsOfStretches() {
+  std::vector<Sampling> all = allSamplings();
+  std::erase_if(all, [](const Sampling& s) { return !traitsOf(s).onStretches; });
+  return all;
+}
+std::string_view nameOf(const Sampling& s) { return alternativeName(s); }
 
 /// A scene with its camera ray.
 struct Case {
@@ -33,7 +37,7 @@ struct Case {
   Ray ray;
 };
 
-Estimates singleScattering(const Case& c, Sampling sampling, std::uint64_t n, int maxDepth = 1,
+Estimates singleScattering(const Case& c, const Sampling& sampling, std::uint64_t n, int maxDepth = 1,
                            std::uint64_t seed = 1) {
   return estimate(*makeVolPath(*c.scene, {.maxDepth = maxDepth, .mediumLightSampling = sampling}), c.ray, n,
                   seed);
@@ -74,7 +78,7 @@ TEST(MediumLightSampling, PointLightInHomogeneousFogIsExactInEveryChannel) {
   const Point3f light{0, 0.2f, 0};
   const Case c = slab(sigmaA, sigmaS, [&](SceneKit& kit) { kit.pointLight(light, 2); });
   const auto way = [&](Point3f p) { return length(Vec3d(p) - Vec3d(light)); };
-  for (const Sampling sampling : kSamplings) {
+  for (const Sampling& sampling : allSamplings()) {
     const Estimates e = singleScattering(c, sampling, 1 << 16);
     const RunningStats* channels[] = {&e.red, &e.green, &e.blue};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -89,9 +93,9 @@ TEST(MediumLightSampling, PointLightInHomogeneousFogIsExactInEveryChannel) {
 TEST(MediumLightSampling, UnweightedSumOfBothIsSeenToBeTooMuch) {
   // Negative control: dropping the weights of the combination counts the light twice, as their sum does.
   const Case c = slab(Rgb(0.2f), Rgb(0.4f), [](SceneKit& kit) { kit.pointLight({0, 0.2f, 0}, 2); });
-  const Estimates mis = singleScattering(c, Sampling::Mis, 1 << 14),
-                  collision = singleScattering(c, Sampling::Collision, 1 << 14, 1, 2),
-                  stretch = singleScattering(c, Sampling::Equiangular, 1 << 14, 1, 3);
+  const Estimates mis = singleScattering(c, MisSampling{}, 1 << 14),
+                  collision = singleScattering(c, CollisionSampling{}, 1 << 14, 1, 2),
+                  stretch = singleScattering(c, EquiangularSampling{}, 1 << 14, 1, 3);
   const ZTest unweighted{collision.red.mean() + stretch.red.mean(),
                          mis.red.mean(),
                          std::hypot(collision.red.standardError(), stretch.red.standardError()),
@@ -108,7 +112,7 @@ TEST(MediumLightSampling, IsExactOnStretchesThatBoundariesCut) {
   const auto way = [&](Point3f p) { return length(Vec3d(p) - Vec3d(light)); };
   const double truth = slabIntegral(
       0.4, 0.6, [&](Point3f p) { return 2 / sqr(way(p)); }, way);
-  for (const Sampling sampling : kSamplings) {
+  for (const Sampling& sampling : allSamplings()) {
     const Estimates e = singleScattering(c, sampling, 1 << 16);
     const ZTest test = zTest(e.red, truth);
     EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << nameOf(sampling) << ": " << test;
@@ -141,7 +145,7 @@ TEST(MediumLightSampling, SpotConesAreExactToTheirEdges) {
     };
     const double truth = slabIntegral(0.4, 0.6, radiance, way);
     ASSERT_GT(truth, 0);
-    for (const Sampling sampling : kSamplings) {
+    for (const Sampling& sampling : allSamplings()) {
       const ZTest test = zTest(singleScattering(c, sampling, 1 << 15).red, truth);
       EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << nameOf(sampling) << ", angle " << spot.angle << ": " << test;
     }
@@ -214,8 +218,8 @@ Case smoke() {
 TEST(MediumLightSampling, AllAgreeInOverlappingColouredSmokeAtEveryDepth) {
   const Case c = smoke();
   for (const int depth : {1, 4}) {
-    const Estimates collision = singleScattering(c, Sampling::Collision, 1 << 16, depth);
-    for (const Sampling sampling : {Sampling::Auto, Sampling::Equiangular, Sampling::Mis}) {
+    const Estimates collision = singleScattering(c, CollisionSampling{}, 1 << 16, depth);
+    for (const Sampling& sampling : samplingsOfStretches()) {
       const Estimates e = singleScattering(c, sampling, 1 << 16, depth, 2);
       for (const auto& [a, b] :
            {std::pair{&collision.red, &e.red}, {&collision.green, &e.green}, {&collision.blue, &e.blue}}) {
@@ -257,7 +261,7 @@ TEST(MediumLightSampling, GridSmokeUnderAPointLightEqualsQuadrature) {
     truth += sigma * 0.75 / (4 * M_PI) * std::exp(-depth - sigma * h / 2 - way) * 2 / lengthSquared(d) * h;
     depth += sigma * h;
   }
-  for (const Sampling sampling : kSamplings) {
+  for (const Sampling& sampling : allSamplings()) {
     const ZTest test = zTest(singleScattering(c, sampling, 1 << 16).red, truth);
     EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << nameOf(sampling) << ": " << test;
   }
@@ -270,8 +274,8 @@ TEST(MediumLightSampling, ChangesNothingWithoutSuchALight) {
   kit.builder.addPrimitive({.shape = kit.sphere({0, 0, 0}, 1), .material = kit.matte(0.5f)});
   kit.sky(1);
   const Case c{kit.finish(), rayOf({0.3f, 0.2f, 5}, {0.05f, 0.02f, -1})};
-  const Estimates collision = singleScattering(c, Sampling::Collision, 64, 5);
-  for (const Sampling sampling : {Sampling::Auto, Sampling::Equiangular, Sampling::Mis}) {
+  const Estimates collision = singleScattering(c, CollisionSampling{}, 64, 5);
+  for (const Sampling& sampling : samplingsOfStretches()) {
     const Estimates e = singleScattering(c, sampling, 64, 5);
     EXPECT_EQ(collision.values, e.values);
     EXPECT_EQ(collision.counters.shadowRays, e.counters.shadowRays);
@@ -279,16 +283,16 @@ TEST(MediumLightSampling, ChangesNothingWithoutSuchALight) {
 }
 
 TEST(MediumLightSampling, IsQuietInThinFogAndNotNoisierInDense) {
-  const auto noise = [](float sigma, Point3f light, Sampling sampling) {
+  const auto noise = [](float sigma, Point3f light, const Sampling& sampling) {
     const Case c = slab(Rgb(0), Rgb(sigma), [&](SceneKit& kit) { kit.pointLight(light, 2); });
     return singleScattering(c, sampling, 1 << 14).red.standardError();
   };
   const Point3f near{0, 0.2f, 0}, far{0, 30, 40};
-  for (const Sampling sampling : {Sampling::Auto, Sampling::Equiangular, Sampling::Mis}) {
-    EXPECT_LT(noise(0.02f, near, sampling), 0.1 * noise(0.02f, near, Sampling::Collision));
+  for (const Sampling& sampling : samplingsOfStretches()) {
+    EXPECT_LT(noise(0.02f, near, sampling), 0.1 * noise(0.02f, near, CollisionSampling{}));
   }
-  EXPECT_LT(noise(10, far, Sampling::Auto), 1.05 * noise(10, far, Sampling::Collision));
-  EXPECT_GT(noise(10, far, Sampling::Equiangular), 1.5 * noise(10, far, Sampling::Collision));
+  EXPECT_LT(noise(10, far, AutoSampling{}), 1.05 * noise(10, far, CollisionSampling{}));
+  EXPECT_GT(noise(10, far, EquiangularSampling{}), 1.5 * noise(10, far, CollisionSampling{}));
 }
 
 TEST(PositionLights, DensitiesOfManyLightsAreThoseThatAreSampled) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "lighting/position_lights.h"
+#include "singlescattering/position_lights.h"
 
 #include <array>
 #include <cmath>
@@ -58,14 +58,14 @@ std::optional<Equiangular> PositionLights::over(const Entry& e, const Stretch& s
   return distances;
 }
 
-std::optional<PositionLights::Choice> PositionLights::sample(const Stretch& stretch, float u, float v) const {
+std::optional<StretchSample> PositionLights::sample(const Stretch& stretch, float u, float v) const {
   if (lights_.empty()) return std::nullopt;
   const auto at = [&](const Entry& e, const Equiangular& distances,
-                      double probability) -> std::optional<Choice> {
+                      double probability) -> std::optional<StretchSample> {
     const double t = distances.sample(double{v});
     const double pdf = probability * distances.pdf(t);
     if (!(pdf > 0) || !std::isfinite(pdf)) return std::nullopt;
-    return Choice{e.light, t, pdf};
+    return StretchSample{e.light, t, pdf};
   };
   if (!weighsEach()) {
     const Distribution1D::Choice c = byPower_.choose(u);

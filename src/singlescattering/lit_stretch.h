@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "lighting/light_selector.h"
+#include "singlescattering/position_lights.h"
+#include "world/media_stretch.h"
+
+namespace pbrtmedia {
+
+/// A stretch of a path's ray in media of the exponential law that can scatter, and the lights at points that
+/// may shine on it. Borrows both.
+struct LitStretch {
+  MediaStretch media;
+  const PositionLights& lights;
+  double extinction;  ///< MediaStretch::meanExtinction, > 0
+};
+
+/// The density per length with which the path's flight collides at a distance, by its control
+/// (MediaStretch::flightDensity), and samples a light there. Computed when it is asked for.
+class CollisionDensity {
+ public:
+  /// `p`: the point at `t`.
+  CollisionDensity(const MediaStretch& media, const LightSelector& selector, std::size_t light, double t,
+                   Point3f p)
+      : media_(media), selector_(selector), light_(light), t_(t), p_(p) {}
+  double operator()() const { return media_.flightDensity(t_) * double{selector_.probability(p_, light_)}; }
+
+ private:
+  const MediaStretch& media_;
+  const LightSelector& selector_;
+  std::size_t light_;
+  double t_;
+  Point3f p_;
+};
+
+}  // namespace pbrtmedia

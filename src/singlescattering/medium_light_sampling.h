@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/variant_names.h"
+#include "singlescattering/auto_sampling.h"
+#include "singlescattering/collision_sampling.h"
+#include "singlescattering/equiangular_sampling.h"
+#include "singlescattering/mis_sampling.h"
+
+namespace pbrtmedia {
+
+/// The one list of ways to choose which points of a medium take light samples of lights that shine from one
+/// point, `"string mediumlightsampling"`. A new one is its header and one word here. The first is the
+/// default.
+///
+/// Each is a small immutable value: kName, traits(), and
+///   std::optional<StretchSample> sample(const LitStretch& stretch, Point2f u) const;
+///   double weight(const StretchSample& sample, const CollisionDensity& collisions) const;
+///   double collisionShare(const LitStretch& stretch, std::size_t light, double t,
+///                         const CollisionDensity& collisions) const;
+/// A sample of a stretch counts `weight`, its share divided by its density; the light sample of a collision
+/// at `t` counts `collisionShare` of itself. Where light arrives, the shares of both must sum to one.
+using MediumLightSampling = std::variant<AutoSampling, CollisionSampling, EquiangularSampling, MisSampling>;
+
+inline MediumLightSamplingTraits traitsOf(const MediumLightSampling& sampling) {
+  return std::visit([](const auto& held) { return held.traits(); }, sampling);
+}
+
+}  // namespace pbrtmedia

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "world/media_stretch.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "world/scene.h"
+
+namespace pbrtmedia {
+
+Segment MediaStretch::segmentIn(const PlacedMedium& m) const {
+  const Segment segment{ray_->o, ray_->d, tMin_, tMax_};
+  return m.placement ? m.placement->toObject(segment, ray_->time) : segment;
+}
+
+Rgb MediaStretch::transmittance(PixelStream random, RenderCounters& counters) const {
+  Rgb product(1.0f);
+  for (std::size_t i = 0; i < state_->activeCount() && !product.isBlack(); ++i) {
+    const PlacedMedium m = state_->active(i);
+    product *= m.medium->transmittance(segmentIn(m), random, counters);
+  }
+  return product;
+}
+
+MediumFlight MediaStretch::sampleFreeFlight(Rgb throughput, PixelStream random,
+                                            RenderCounters& counters) const {
+  if (state_->isVacuum()) return {};
+  if (state_->activeCount() > 1) return nearestOfFlights(throughput, random, counters);
+  const PlacedMedium m = state_->active(0);
+  const FreeFlight f = m.medium->sampleFreeFlight(segmentIn(m), throughput, random, counters);
+  return {f.collided, f.t, f.weight, f.collided ? &m.medium->phase() : nullptr};
+}
+
+/// Independent free flights through several media. The nearest collision counts. What another medium let
+/// through up to there is told by the same flight on the shorter segment: as a flight draws its random
+/// numbers on the way (Medium::sampleFreeFlight), a replay of its numbers takes the same steps and passes.
+MediumFlight MediaStretch::nearestOfFlights(Rgb throughput, PixelStream random,
+                                            RenderCounters& counters) const {
+  struct Flight {
+    Rng start;
+    Rgb passed;
+    double tEnd;
+  };
+  std::vector<Flight> flights;
+  flights.reserve(state_->activeCount());
+  MediaStretch rest = *this;  // up to the nearest collision so far
+  MediumFlight nearest;
+  Rgb collidedWeight(1.0f);
+  std::size_t winner = state_->activeCount();
+  for (std::size_t i = 0; i < state_->activeCount(); ++i) {
+    const PlacedMedium m = state_->active(i);
+    const Rng start = random.rng();
+    const FreeFlight f = m.medium->sampleFreeFlight(rest.segmentIn(m), throughput, random, counters);
+    flights.push_back({start, f.weight, rest.tMax_});
+    if (!f.collided) continue;
+    rest.tMax_ = f.t;
+    winner = i;
+    collidedWeight = f.weight;
+    nearest = {true, f.t, Rgb(1.0f), &m.medium->phase()};
+  }
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    if (i == winner) {
+      nearest.weight *= collidedWeight;
+      continue;
+    }
+    const PlacedMedium m = state_->active(i);
+    if (flights[i].tEnd != rest.tMax_) {
+      Rng replay = flights[i].start;
+      const FreeFlight f = m.medium->sampleFreeFlight(rest.segmentIn(m), throughput, replay, counters);
+      // It may collide only by rounding at the very end; then it got there all the same.
+      flights[i].passed = f.collided ? Rgb(1.0f) : f.weight;
+    }
+    nearest.weight *= flights[i].passed;
+  }
+  return nearest;
+}
+
+Rgb MediaStretch::scattering(double t, Vector3f wo, Vector3f wi, RenderCounters& counters) const {
+  const MediaStretch point(*state_, *ray_, t, t);
+  Rgb sum;
+  for (std::size_t i = 0; i < state_->activeCount(); ++i) {
+    const PlacedMedium m = state_->active(i);
+    const Rgb sigmaS = m.medium->at(point.segmentIn(m).at(t), counters).sigmaS;
+    if (!sigmaS.isBlack()) sum += sigmaS * m.medium->phase().evaluate(wo, wi);
+  }
+  return sum;
+}
+
+FlightControl MediaStretch::control() const {
+  FlightControl sum{};
+  for (std::size_t i = 0; i < state_->activeCount(); ++i) {
+    const PlacedMedium m = state_->active(i);
+    const FlightControl control = m.medium->flightControl(segmentIn(m));
+    sum.depth += control.depth;
+    sum.rate += control.rate;
+  }
+  return sum;
+}
+
+double MediaStretch::meanExtinction() const {
+  const FlightControl whole = control();
+  const double length = tMax_ - tMin_;
+  const auto depth = static_cast<double>(whole.depth.average());
+  if (length < static_cast<double>(kInfinity)) return length > 0 ? depth / length : 0;
+  const auto rate = static_cast<double>(whole.rate.average());
+  return rate > 0 || !(depth > 0) ? rate : std::numeric_limits<double>::min();
+}
+
+double MediaStretch::flightDensity(double t) const {
+  const auto [depth, rate] = upTo(t).control();
+  double sum = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (rate[c] > 0) sum += static_cast<double>(rate[c]) * std::exp(-static_cast<double>(depth[c]));
+  }
+  return sum / 3;
+}
+
+EmissionSamples MediaStretch::sampleEmission(std::size_t i, PixelStream random,
+                                             RenderCounters& counters) const {
+  const PlacedMedium m = state_->active(i);
+  EmissionSamples found = m.medium->sampleEmission(segmentIn(m), random, counters);
+  for (std::size_t s = 0; s < found.count; ++s) {
+    auto& [t, radiance] = found.samples[s];
+    for (std::size_t other = 0; other < state_->activeCount() && !radiance.isBlack(); ++other) {
+      if (other == i) continue;
+      const PlacedMedium o = state_->active(other);
+      radiance *= o.medium->transmittance(upTo(t).segmentIn(o), random, counters);
+    }
+  }
+  return found;
+}
+
+}  // namespace pbrtmedia

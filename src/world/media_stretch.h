@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "base/pixel_stream.h"
+#include "base/ray.h"
+#include "base/statistics.h"
+#include "media/medium.h"
+#include "media/phase/phase_function.h"
+#include "spectrum/rgb.h"
+#include "world/medium_state.h"
+
+namespace pbrtmedia {
+
+/// Outcome of a free flight through all media of a stretch.
+struct MediumFlight {
+  bool collided = false;
+  double t = 0;
+  Rgb weight{1.0f};                      ///< as in FreeFlight
+  const PhaseFunction* phase = nullptr;  ///< of the medium that collided
+};
+
+/// A stretch of a ray on which the media stay the same, tMin < t < tMax, and all that they do together on it.
+/// Borrows state and ray; cheap to make.
+class MediaStretch {
+ public:
+  /// `tMax` may be infinite.
+  MediaStretch(const MediumState& state, const Ray& ray, double tMin, double tMax)
+      : state_(&state), ray_(&ray), tMin_(tMin), tMax_(tMax) {}
+
+  const MediumState& state() const { return *state_; }
+  const Ray& ray() const { return *ray_; }
+  double tMin() const { return tMin_; }
+  double tMax() const { return tMax_; }
+  /// Its part before `t`.
+  MediaStretch upTo(double t) const { return {*state_, *ray_, tMin_, t}; }
+
+  /// Unbiased estimate of the transmittance of all active media, their product. Stops as soon as it is black.
+  Rgb transmittance(PixelStream random, RenderCounters& counters) const;
+  /// The nearest of independent free flights through the active media, weighted by what the other media let
+  /// through up to there.
+  /// `throughput`: of the path so far (Medium::sampleFreeFlight).
+  MediumFlight sampleFreeFlight(Rgb throughput, PixelStream random, RenderCounters& counters) const;
+  /// What the media scatter at `t` from `wi` toward `wo` per length: the sum of sigma_s times the phase
+  /// function. `wi` away from the point, as `wo`.
+  Rgb scattering(double t, Vector3f wo, Vector3f wi, RenderCounters& counters) const;
+  /// Density that a flight from tMin is taken to have for a collision at `t`, for weights: the mean over the
+  /// channels of what the media's controls say together.
+  double flightDensity(double t) const;
+  /// Mean over the stretch and the channels of the extinction that the media's controls say together; on an
+  /// endless one that at its end. 0 only where nothing can collide.
+  double meanExtinction() const;
+  /// Points chosen where active medium number `i` emits, with what all media let through of it.
+  EmissionSamples sampleEmission(std::size_t i, PixelStream random, RenderCounters& counters) const;
+
+ private:
+  /// In the space of an active medium's definition.
+  Segment segmentIn(const PlacedMedium& m) const;
+  FlightControl control() const;
+  MediumFlight nearestOfFlights(Rgb throughput, PixelStream random, RenderCounters& counters) const;
+
+  const MediumState* state_;
+  const Ray* ray_;
+  double tMin_, tMax_;
+};
+
+}  // namespace pbrtmedia
