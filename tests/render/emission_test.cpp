@@ -98,9 +98,10 @@ TEST(EmissionUnderUnprovenBounds, ThinBrightGasIsWithinAPercentAtSixtyFourSample
 TEST(EmissionUnderUnprovenBounds, AbsorbingTextureShowsItsOpticalDepth) {
   const std::string scene = pencil(1, 1, volpath(3), kAlongZ) + "WorldBegin\n" + kBlocks +
                             medium(kTexture + constantBound(1.4), .7, 0, 3) + kCube + "WorldEnd\n";
-  const RunningStats pixels = samplesOf(scene, 1 << 15);
+  const RunningStats pixels = samplesOf(scene, 1 << 18);
   const ZTest test = zTest(pixels, 3 * -std::expm1(-.7 * 2.2), 1);
   EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+  EXPECT_TRUE(test.sees()) << test;
   // Negative control: one block missing would be seen.
   EXPECT_GT(std::abs(zTest(pixels, 3 * -std::expm1(-.7 * 2), 1).z()), kMaxAbsZ);
 }
@@ -116,25 +117,30 @@ TEST(EmissionUnderUnprovenBounds, HotFurnaceIsWhiteWhateverIsCut) {
                                         kPerlin + kLearned, kPerlin + constantBound(1.5)}) {
     for (const int learningPasses : {0, 16}) {
       if (learningPasses > 0 && parameters.find("progressive") == std::string::npos) continue;
-      const ZTest test = zTest(samplesOf(furnace(parameters), 1 << 12, 1, learningPasses), 1, 1);
+      // A texture of blocks is noisy under bounds that hold, which are far above half of the blocks.
+      const bool isNoisy = parameters.find("texture") != std::string::npos &&
+                           (learningPasses > 0 || parameters.find("constant") != std::string::npos);
+      const ZTest test =
+          zTest(samplesOf(furnace(parameters), isNoisy ? 110'000 : 24'000, 1, learningPasses), 1, 1);
       EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << parameters << ": " << test;
-      EXPECT_LT(test.standardError, .03) << "a bias of a sixth must be seen";
+      EXPECT_TRUE(test.sees()) << parameters << ": " << test;
     }
   }
 }
 
 TEST(EmissionUnderUnprovenBounds, LightSamplesSeeTheMediumThatIsCut) {
   // Sigma_t 8 under a first bound of 2: until bounds are published a quarter of the medium is there.
-  const auto floor = [](const std::string& parameters, double sigmaA, double sigmaS) {
+  const auto floor = [](const std::string& parameters, double sigmaA, double sigmaS, std::int64_t samples) {
     return samplesOf(pencil(1, 1, volpath(4), kAtFloor) + "WorldBegin\n" +
                          medium(parameters, sigmaA, sigmaS, 5) + kFloor + kCube + "WorldEnd\n",
-                     1 << 14);
+                     samples);
   };
   const std::string slab =
       "\"string type\" \"analytic\" \"string function\" \"slab\" \"float from\" -2 \"float to\" 2 " + kBox +
       "\"string bounds\" \"progressive\" \"float initialextinction\" 2";
-  const RunningStats cut = floor(slab, 6, 2), quarter = floor("\"string type\" \"homogeneous\"", 1.5, .5),
-                     whole = floor("\"string type\" \"homogeneous\"", 6, 2);
+  const RunningStats cut = floor(slab, 6, 2, 1 << 18),
+                     quarter = floor("\"string type\" \"homogeneous\"", 1.5, .5, 1 << 16),
+                     whole = floor("\"string type\" \"homogeneous\"", 6, 2, 1 << 14);
   const auto z = [&](const RunningStats& a) {
     return (cut.mean() - a.mean()) / std::hypot(cut.standardError(), a.standardError());
   };
@@ -164,7 +170,8 @@ TEST(EmissionUnderUnprovenBounds, IsFoundAsWellAsUnderThoseOfTheData) {
 }
 
 TEST(EmissionInInstances, LooksAsIfPlacedDirectly) {
-  // The same cube of blocks in the world: directly, or through an instance of an object of an instance.
+  // The same cube of blocks in the world: directly, or through an instance of an object of an instance. By
+  // the same random numbers: where paths are told apart by rounding, some few differ.
   const auto scene = [](bool nested) {
     const std::string place = "Translate 1 2 -1 Rotate 30 1 2 3 Scale 2 .5 1.5\n",
                       inner = "Rotate 50 0 1 1 Scale 1 2 1\n",
@@ -173,7 +180,7 @@ TEST(EmissionInInstances, LooksAsIfPlacedDirectly) {
                           "Translate -1 -2 1\n";
     // What an object holds is placed by the CTM of its definition first.
     const std::string grid = medium(kGrid, .7, .5, 4);
-    return pencil(4, 64, volpath(4), kAtFloor, .6) + "WorldBegin\n" + kFloor +
+    return pencil(4, 256, volpath(4), kAtFloor, .6) + "WorldBegin\n" + kFloor +
            (nested ? "AttributeBegin\n" + undo + "ObjectBegin \"cube\"\n" + grid + kCube +
                          "ObjectEnd\nAttributeEnd\nObjectBegin \"group\"\n" + inner +
                          "ObjectInstance \"cube\"\nObjectEnd\nAttributeBegin\n" + place +
@@ -181,28 +188,15 @@ TEST(EmissionInInstances, LooksAsIfPlacedDirectly) {
                    : grid + kCube) +
            "WorldEnd\n";
   };
-  std::vector<RunningStats> images[2];
-  for (const bool nested : {false, true}) {
-    std::vector<RunningStats>& pixels = images[nested ? 1 : 0];
-    pixels.resize(16);
-    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
-      const Rendered r = renderText(scene(nested), {.seed = seed + (nested ? 100 : 0)});
-      EXPECT_EQ(r.result.counters.mediumMismatches, 0u);
-      for (int i = 0; i < 16; ++i)
-        pixels[static_cast<std::size_t>(i)].add(static_cast<double>(r.image.at(i % 4, i / 4, 0)));
-    }
+  const Rendered direct = renderText(scene(false), {.seed = 1}),
+                 placed = renderText(scene(true), {.seed = 1});
+  for (int i = 0; i < 16; ++i) {
+    const double a = direct.image.at(i % 4, i / 4, 0), b = placed.image.at(i % 4, i / 4, 0);
+    EXPECT_GT(a, 0);
+    EXPECT_NEAR(b, a, kVisible * a) << "pixel " << i;
   }
-  double difference = 0, variance = 0;
-  for (std::size_t i = 0; i < 16; ++i) {
-    const RunningStats &a = images[0][i], &b = images[1][i];
-    const double error = std::hypot(a.standardError(), b.standardError());
-    EXPECT_LT(std::abs(a.mean() - b.mean()) / error, kMaxAbsZ) << "pixel " << i;
-    difference += a.mean() - b.mean();
-    variance += error * error;
-    EXPECT_GT(a.mean(), 0);
-    EXPECT_LT(error, .1 * a.mean()) << "half of the light must be missed";
-  }
-  EXPECT_LT(std::abs(difference) / std::sqrt(variance), kMaxAbsZ);
+  EXPECT_NEAR(imageMean(placed.image), imageMean(direct.image), 1e-3 * imageMean(direct.image));
+  for (const Rendered* r : {&direct, &placed}) EXPECT_EQ(r->result.counters.mediumMismatches, 0u);
 }
 
 TEST(EmissionBeyondLightSamples, EndlessGasIsAFurnace) {
@@ -213,9 +207,9 @@ TEST(EmissionBeyondLightSamples, EndlessGasIsAFurnace) {
                              "MediumInterface \"\" \"m\"\nMaterial \"matte\" \"rgb Kd\" [ 1 1 1 ]\n"
                              "Translate .5 .5 0 Shape \"sphere\" \"float radius\" 1\nWorldEnd\n";
     EXPECT_TRUE(constructText(text).scene->lightsWithMedia().empty());
-    const ZTest test = zTest(samplesOf(text, 1 << 13), 1, 1);
+    const ZTest test = zTest(samplesOf(text, sigmaS > 0 ? 130'000 : 1024), 1, 1);
     EXPECT_NEAR(test.mean, 1, 1e-5 + kMaxAbsZ * test.standardError);
-    EXPECT_LT(test.standardError, .02) << "a bias of a tenth must be seen";
+    EXPECT_TRUE(test.sees()) << test;
   }
 }
 
@@ -230,9 +224,9 @@ TEST(EmissionBeyondLightSamples, CountsFullyOutsideTheBoxOfTheLight) {
                            ".5 3 Shape \"sphere\" "
                            "\"float radius\" 1\nWorldEnd\n";
   EXPECT_EQ(constructText(text).scene->lightsWithMedia().size(), 1u);
-  const ZTest test = zTest(samplesOf(text, 1 << 14), 1, 1);
+  const ZTest test = zTest(samplesOf(text, 65'000), 1, 1);
   EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
-  EXPECT_LT(test.standardError, .02) << "a bias of a tenth must be seen";
+  EXPECT_TRUE(test.sees()) << test;
 }
 
 TEST(EmissionBeyondLightSamples, CountsFullyBehindMirrorsAndGlass) {
@@ -243,7 +237,7 @@ TEST(EmissionBeyondLightSamples, CountsFullyBehindMirrorsAndGlass) {
   const auto seen = [&](const std::string& view, const std::string& material) {
     return samplesOf(pencil(1, 1, volpath(8), view) + "WorldBegin\n" + gas + kCube + "Material " + material +
                          "\n" + boxMesh({-5, -5, -2.2}, {5, 5, -1.8}) + "WorldEnd\n",
-                     1 << 14);
+                     1 << 15);
   };
   const ZTest mirrored =
                   zTest(seen("LookAt .5 .5 -1.5  .5 .5 -3  0 1 0", "\"mirror\" \"rgb Kr\" [ .8 .8 .8 ]"),
@@ -252,7 +246,8 @@ TEST(EmissionBeyondLightSamples, CountsFullyBehindMirrorsAndGlass) {
                   zTest(seen(kAlongZ, "\"glass\" \"rgb Kr\" [ 0 0 0 ] \"float eta\" 1.5"), passed * slab, 1);
   EXPECT_NEAR(mirrored.mean, mirrored.truth, 1e-5 + kMaxAbsZ * mirrored.standardError);
   EXPECT_NEAR(through.mean, through.truth, 1e-5 + kMaxAbsZ * through.standardError);
-  EXPECT_LT(through.standardError, .01 * slab);
+  EXPECT_TRUE(mirrored.sees()) << mirrored;
+  EXPECT_TRUE(through.sees()) << through;
 }
 
 }  // namespace

@@ -21,14 +21,12 @@ TEST(HalfSpaceRadiance, HasItsTabulatedValues) {
 
 /// A slab as thick as `sigmaT` mean free paths and wider than that each way from its middle, in a white
 /// environment, seen under the cosine mu.
-std::string slabScene(Storage storage, double albedo, double mu, double sigmaT = 400) {
+std::string slabScene(Storage storage, double albedo, double mu, int samples, double sigmaT = 400) {
   const double sine = std::sqrt(1 - mu * mu);
   const Vec3d a{-2, -2, 0}, b{2, 2, 1};
   std::ostringstream view;
   view.precision(17);
   view << "LookAt " << -3 * sine << " 0 " << -3 * mu << "  0 0 0  0 1 0";
-  // The fewer scatterings a path has, the more paths there are.
-  const int samples = albedo < 0.6 ? 512 : albedo < 0.95 ? 256 : 128;
   return pencil(4, samples, R"("volpath" "integer maxdepth" 100000)", view.str()) + "WorldBegin\n" +
          kWhiteEnvironment + constantMedium(storage, (1 - albedo) * sigmaT, albedo * sigmaT, 0, a, b) +
          mediumBox("m", a, b) + "WorldEnd\n";
@@ -37,14 +35,23 @@ std::string slabScene(Storage storage, double albedo, double mu, double sigmaT =
 class HalfSpace : public testing::TestWithParam<Storage> {};
 
 TEST_P(HalfSpace, SendsBackWhatChandrasekharFound) {
-  for (const double albedo : {0.5, 0.9, 0.99}) {
+  // The fewer scatterings a path has, the more paths there are.
+  for (const auto& [albedo, samples] : {std::pair{0.5, 1500}, {0.9, 768}, {0.99, 640}}) {
     for (const double mu : {1.0, 0.4}) {
-      const ZTest test = zTestOfMean(slabScene(GetParam(), albedo, mu), halfSpaceRadiance(albedo, mu));
+      const ZTest test =
+          zTestOfMean(slabScene(GetParam(), albedo, mu, samples), halfSpaceRadiance(albedo, mu));
       EXPECT_LT(std::abs(test.z()), kMaxAbsZ)
           << nameOf(GetParam()) << ", albedo " << albedo << ", mu " << mu << ": " << test;
-      EXPECT_LT(test.standardError, 0.02 * halfSpaceRadiance(albedo, mu));
+      EXPECT_TRUE(test.sees()) << test;
     }
   }
+}
+
+/// Paths in a grid of ones are the same, however many there are: its super-voxels are as many, or one.
+TEST(HalfSpaceScene, IsTheSamePathByPathInAGridOfManyVoxels) {
+  const auto image = [](Storage storage) { return renderText(slabScene(storage, 0.9, 0.4, 16)).image; };
+  const Image one = image(Storage::OneVoxel), many = image(Storage::Grid64);
+  EXPECT_NEAR(imageMean(many), imageMean(one), 1e-3 * imageMean(one));
 }
 
 /// A mean free path may be far below what single precision tells of coordinates: what comes back has hardly
@@ -54,24 +61,26 @@ TEST_P(HalfSpace, IsTheSameHoweverDense) {
   for (const double sigmaT : {4e5, 4e7, 4e10}) {
     if (GetParam() != Storage::Homogeneous && sigmaT > 4e5) continue;
     for (const double mu : {1.0, 0.4}) {
-      const ZTest test = zTestOfMean(slabScene(GetParam(), 0.5, mu, sigmaT), halfSpaceRadiance(0.5, mu));
-      EXPECT_LT(std::abs(test.z()), kMaxAbsZ)
-          << nameOf(GetParam()) << ", sigma_t " << sigmaT << ", mu " << mu << ": " << test;
-      EXPECT_LT(test.standardError, 0.02 * halfSpaceRadiance(0.5, mu));
+      // By the same random numbers: all lengths are scaled, so most paths are the same.
+      const auto mean = [&](double extinction) {
+        return imageMean(renderText(slabScene(GetParam(), 0.5, mu, 2048, extinction), {.seed = 1}).image);
+      };
+      EXPECT_NEAR(mean(sigmaT), mean(400), kVisible * mean(400))
+          << nameOf(GetParam()) << ", sigma_t " << sigmaT << ", mu " << mu;
     }
   }
 }
 
 TEST(HalfSpaceScene, TestSeesAnAlbedoThatIsALittleWrong) {
-  const ZTest test = zTestOfMean(slabScene(Storage::Homogeneous, 0.95, 1), halfSpaceRadiance(0.9, 1));
+  const ZTest test = zTestOfMean(slabScene(Storage::Homogeneous, 0.91, 1, 768), halfSpaceRadiance(0.9, 1));
   EXPECT_GT(std::abs(test.z()), kMaxAbsZ);
 }
 
 std::string testName(const testing::TestParamInfo<Storage>& info) {
-  return std::array{"Homogeneous", "OneVoxel", "Grid64"}.at(static_cast<std::size_t>(info.param));
+  return std::array{"Homogeneous", "OneVoxel"}.at(static_cast<std::size_t>(info.param));
 }
-INSTANTIATE_TEST_SUITE_P(AllStorages, HalfSpace,
-                         testing::Values(Storage::Homogeneous, Storage::OneVoxel, Storage::Grid64), testName);
+INSTANTIATE_TEST_SUITE_P(Storages, HalfSpace, testing::Values(Storage::Homogeneous, Storage::OneVoxel),
+                         testName);
 
 }  // namespace
 }  // namespace pbrtmedia::test

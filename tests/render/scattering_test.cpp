@@ -29,13 +29,12 @@ std::string bumpyMedium(double albedo, double g) {
 TEST(WhiteFurnace, IsOneInAVaryingMediumForEveryAsymmetry) {
   for (const double g : {-0.9, 0.0, 0.9}) {
     const std::string scene =
-        pencil(6, 64, "\"volpath\" \"integer maxdepth\" 2000", "LookAt 0 0 -4  0 0 0  0 1 0", 1.2) +
+        pencil(6, 256, "\"volpath\" \"integer maxdepth\" 2000", "LookAt 0 0 -4  0 0 0  0 1 0", 1.2) +
         "WorldBegin\n" + kWhiteEnvironment + bumpyMedium(1, g) + mediumBox("m", {-1, -1, -1}, {1, 1, 1}) +
         "WorldEnd\n";
     const ZTest test = zTestOfMean(scene, 1.0);
     EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << "g " << g << ": " << test;
-    EXPECT_LT(test.standardError, 0.01)
-        << "g " << g << ": the test must be able to see a bias of a few percent";
+    EXPECT_TRUE(test.sees()) << "g " << g << ": " << test;
   }
 }
 
@@ -46,12 +45,12 @@ TEST(WhiteFurnace, IsOneUnderEveryLaw) {
     std::string medium = bumpyMedium(1, .3);
     medium.pop_back();
     const std::string scene =
-        pencil(6, 64, "\"volpath\" \"integer maxdepth\" 2000", "LookAt 0 0 -4  0 0 0  0 1 0", 1.2) +
+        pencil(6, 256, "\"volpath\" \"integer maxdepth\" 2000", "LookAt 0 0 -4  0 0 0  0 1 0", 1.2) +
         "WorldBegin\n" + kWhiteEnvironment + medium + " \"string law\" " + law + "\n" +
         mediumBox("m", {-1, -1, -1}, {1, 1, 1}) + "WorldEnd\n";
     const ZTest test = zTestOfMean(scene, 1.0);
     EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << law << ": " << test;
-    EXPECT_LT(test.standardError, 0.02) << law;
+    EXPECT_TRUE(test.sees()) << law << ": " << test;
   }
 }
 

@@ -16,6 +16,9 @@ namespace pbrtmedia::test {
 /// The threshold of the whole project: two-sided p = 5.7e-7, so 1000 assertions alarm falsely 6e-4 times.
 inline constexpr double kMaxAbsZ = 5.0;
 
+/// The difference that tests of whole renders must be able to see, as a share of the truth.
+inline constexpr double kVisible = 0.01;
+
 /// Probability that a standard normal variate lies at least |z| from 0.
 inline double twoSidedPValue(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
 
@@ -37,6 +40,10 @@ struct ZTest {
     return distance / spread;
   }
   double pValue() const { return twoSidedPValue(z()); }
+  /// Whether a mean that is off by this share of the truth would be seen.
+  bool sees(double share = kVisible) const {
+    return kMaxAbsZ * std::hypot(standardError, truthStandardError) <= share * std::abs(truth);
+  }
   friend std::ostream& operator<<(std::ostream& os, const ZTest& t) {
     const auto old = os.precision(9);
     os << "mean " << t.mean << ", truth " << t.truth << ", standard error " << t.standardError
