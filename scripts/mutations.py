@@ -182,10 +182,10 @@ def target_of(test: str) -> str:
     return "alone_" + test.removesuffix(".cpp").replace("/", "_")
 
 
-def alone_lists(root: pathlib.Path, mutations: list[Mutation]) -> str:
+def alone_lists(root: pathlib.Path, tests: list[str]) -> str:
     of_file = programs(root)
     text = ALONE
-    for test in sorted({m.test for m in mutations}):
+    for test in sorted(set(tests)):
         folder = test.split("/")[0]
         helpers = [t for t, p in of_file.items() if p == of_file[test] and not t.endswith("_test.cpp")]
         sources = " ".join([test, *(h for h in helpers if h.split("/")[0] == folder)])
@@ -194,31 +194,39 @@ def alone_lists(root: pathlib.Path, mutations: list[Mutation]) -> str:
 
 
 class Tree:
-    """The copy of the checkout in which faults are planted, and its build."""
+    """A copy of the checkout below build/ in which things may be changed, and its build. `alone`: CMake's list of
+    programs of one test file."""
 
-    def __init__(self, root: pathlib.Path, mutations: list[Mutation]):
+    def __init__(self, root: pathlib.Path, alone: str, folder: str = "mutations"):
         self.root = root
-        self.tree = root / "build" / "mutations" / "tree"
+        self.alone = alone
+        self.tree = root / "build" / folder / "tree"
         self.build = self.tree / "build" / "release"
         self.jobs = str(os.cpu_count() or 1)
         self.environment = os.environ | {"CCACHE_BASEDIR": str(self.tree), "CCACHE_NOHASHDIR": "1",
                                          "CCACHE_SLOPPINESS": "time_macros"}
-        self.synchronise(alone_lists(root, mutations))
+        self.synchronise()
 
-    def synchronise(self, alone: str):
-        """Only what differs is written, so that only that is built anew."""
+    def names(self) -> set[str]:
         listed = subprocess.run(["git", "ls-files", "-z"], cwd=self.root, check=True, capture_output=True).stdout
-        names = {n for n in listed.decode().split("\0") if n and (self.root / n).is_file()}
+        return {n for n in listed.decode().split("\0") if n and (self.root / n).is_file()}
+
+    def content(self, name: str) -> bytes:
+        content = (self.root / name).read_bytes()
+        return content + self.alone.encode() if name == "tests/CMakeLists.txt" else content
+
+    def synchronise(self):
+        """Only what differs is written, so that only that is built anew."""
+        names = self.names()
         for name in names:
-            content = (self.root / name).read_bytes()
-            if name == "tests/CMakeLists.txt":
-                content += alone.encode()
+            content = self.content(name)
             copy = self.tree / name
             if copy.is_file() and copy.read_bytes() == content:
                 continue
             copy.parent.mkdir(parents=True, exist_ok=True)
             copy.write_bytes(content)
-            copy.chmod((self.root / name).stat().st_mode)
+            if (self.root / name).is_file():
+                copy.chmod((self.root / name).stat().st_mode)
         for top in [t for t in self.tree.iterdir() if t.name != "build"]:
             for path in [top] if top.is_file() else list(top.rglob("*")):
                 if path.is_file() and str(path.relative_to(self.tree)) not in names:
@@ -288,7 +296,7 @@ def shown(failures: list[str]) -> str:
 
 
 def run(root: pathlib.Path, mutations: list[Mutation], chosen: list[Mutation], record: bool) -> int:
-    tree = Tree(root, mutations)
+    tree = Tree(root, alone_lists(root, [m.test for m in mutations]))
     tree.configure()
     tree.must(["cmake", "--build", str(tree.build), "--target", "build.ninja"])
     known = tree.targets()

@@ -89,7 +89,7 @@ class Mutations(unittest.TestCase):
         self.assertEqual(mutations.programs(self.root), {
             "base/a_test.cpp": "base", "base/help.cpp": "base", "media/p_test.cpp": "media",
             "media/q_test.cpp": "media_stat"})
-        lists = mutations.alone_lists(self.root, mutations.parse("\n".join([SUM, CALL])))
+        lists = mutations.alone_lists(self.root, [m.test for m in mutations.parse("\n".join([SUM, CALL]))])
         self.assertIn("test_alone(alone_base_a_test base base/a_test.cpp base/help.cpp)", lists)
         self.assertIn("test_alone(alone_media_q_test media_stat media/q_test.cpp)", lists)
 
