@@ -45,8 +45,8 @@ Bounds3f grown(Bounds3f b) {
 
 void reportBounds(const RTCBoundsFunctionArguments* args) {
   const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
-  const Bounds3f b =
-      grown(record.user ? record.user->bounds() : record.worldFromObject.motionBounds(record.object->bounds));
+  const Bounds3f b = grown(record.user ? record.user->primitiveBounds(args->primID)
+                                       : record.worldFromObject.motionBounds(record.object->bounds));
   *args->bounds_o = {b.min.x, b.min.y, b.min.z, 0, b.max.x, b.max.y, b.max.z, 0};
 }
 
@@ -101,7 +101,7 @@ double largestRayInto(const AnimatedTransform& worldFromObject) {
 
 RTCGeometry makeUser(GeometryRecord& record) {
   RTCGeometry geometry = rtcNewGeometry(embreeDevice(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, 1);
+  rtcSetGeometryUserPrimitiveCount(geometry, record.user ? record.user->primitiveCount() : 1);
   rtcSetGeometryBoundsFunction(geometry, reportBounds, nullptr);
   if (record.object) {
     Query::setInstanceCallbacks(geometry);
@@ -129,6 +129,7 @@ GeometryRecord& Accelerator::Impl::add(const HitFilter* filter) {
 void Accelerator::Impl::attach(GeometryRecord& record) {
   if (record.object && !record.object->scene) return;                   // instance of nothing
   if (!record.object && !record.user && !record.isTriangles()) return;  // mesh without triangles
+  if (record.user && record.user->primitiveCount() == 0) return;
   constexpr double kNoScene = 1e12;  // coordinates of no scene; a float there has steps of 65536
   bool isStaticInstance = false;
   if (record.object && !record.worldFromObject.isAnimated()) {
@@ -166,7 +167,8 @@ std::uint32_t Accelerator::addTriangles(TriangleBuffers triangles, const HitFilt
 }
 
 std::uint32_t Accelerator::addUser(const UserGeometry& geometry, const HitFilter* filter) {
-  const Bounds3f b = geometry.bounds();
+  Bounds3f b;
+  for (std::uint32_t i = 0; i < geometry.primitiveCount(); ++i) b.expand(geometry.primitiveBounds(i));
   checkExtent(b, "shape");
   GeometryRecord& record = impl_->add(filter);
   record.user = &geometry;

@@ -85,20 +85,23 @@ struct TriangleBuffers {
   bool paddedPositions = false;
 };
 
-/// Geometry that intersects itself, in double. One primitive. Implementations are immutable and thread-safe.
+/// Geometry that intersects itself, in double: any number of primitives. Implementations are immutable and
+/// thread-safe.
 class UserGeometry {
  public:
   virtual ~UserGeometry() = default;
-  /// World (definition-space) bounds, conservative.
-  virtual Bounds3f bounds() const = 0;
+  /// The same on every call.
+  virtual std::uint32_t primitiveCount() const = 0;
+  /// World (definition-space) bounds, conservative. `primitive` < primitiveCount().
+  virtual Bounds3f primitiveBounds(std::uint32_t primitive) const = 0;
   struct Root {
     double t;
     Point2f uv;
   };
-  /// The nearest accepted root with tMin <= float(t) <= tMax. `excludedT`: for each value, the geometric root
-  /// nearest to it is skipped (before clipping by zmin, phimax, ...), which is how a ray leaves the surface
-  /// it starts on.
-  virtual std::optional<Root> intersect(const Ray& ray, double tMin, double tMax,
+  /// The nearest accepted root of one primitive with tMin <= float(t) <= tMax. `excludedT`: for each value,
+  /// the geometric root nearest to it is skipped (before clipping by zmin, phimax, ...), which is how a ray
+  /// leaves the surface it starts on.
+  virtual std::optional<Root> intersect(std::uint32_t primitive, const Ray& ray, double tMin, double tMax,
                                         std::span<const float> excludedT) const = 0;
 };
 

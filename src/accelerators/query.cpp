@@ -186,12 +186,12 @@ void Query::filterTriangle(const RTCFilterFunctionNArguments* args) {
   if (isOut || !query.take(record, hit)) args->valid[0] = 0;
 }
 
-bool Query::hitUser(const GeometryRecord& record, const RTCRay& from) {
+bool Query::hitUser(const GeometryRecord& record, std::uint32_t primitive, const RTCRay& from) {
   const Ray ray{.o = {from.org_x, from.org_y, from.org_z},
                 .d = {from.dir_x, from.dir_y, from.dir_z},
                 .tMax = from.tfar,
                 .time = ray_.time};
-  const PrimitiveId id{instance(), record.number, 0};
+  const PrimitiveId id{instance(), record.number, primitive};
   // Room for the roots a filter rejects, which are then left out as well.
   std::array<float, Exclusions::kCapacity + 16> excludedT;
   std::size_t count = 0;
@@ -199,7 +199,8 @@ bool Query::hitUser(const GeometryRecord& record, const RTCRay& from) {
     if (entry.id == id) excludedT[count++] = entry.t;
   }
   while (true) {
-    const auto root = record.user->intersect(ray, from.tnear, from.tfar, {excludedT.data(), count});
+    const auto root =
+        record.user->intersect(primitive, ray, from.tnear, from.tfar, {excludedT.data(), count});
     if (!root) return false;
     const RayHit hit{.t = static_cast<float>(root->t), .id = id, .uv = root->uv};
     if (take(record, hit)) return true;
@@ -238,14 +239,14 @@ void Query::intersectUser(const RTCIntersectFunctionNArguments* args) {
   Query& query = of(args->context);
   auto& rayHit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
   const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
-  if (query.hitUser(record, rayHit.ray)) report(rayHit, query.best_);
+  if (query.hitUser(record, args->primID, rayHit.ray)) report(rayHit, query.best_);
 }
 
 void Query::occludedUser(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
   const auto& record = *static_cast<const GeometryRecord*>(args->geometryUserPtr);
-  if (of(args->context).hitUser(record, ray)) ray.tfar = -kInfinity;
+  if (of(args->context).hitUser(record, args->primID, ray)) ray.tfar = -kInfinity;
 }
 
 void Query::intersectInstance(const RTCIntersectFunctionNArguments* args) {

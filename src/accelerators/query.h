@@ -62,7 +62,7 @@ class Query {
   };
   std::optional<BorderStart> borderStart(const Accelerator::Impl& world,
                                          const Exclusions::Entry& entry) const;
-  bool hitUser(const GeometryRecord& record, const RTCRay& ray);
+  bool hitUser(const GeometryRecord& record, std::uint32_t primitive, const RTCRay& ray);
   bool hitInstance(const GeometryRecord& record);
 
   Ray ray_;

@@ -77,7 +77,7 @@ Quadric::ObjectRay Quadric::objectRay(const Ray& ray) const {
   return {o + shift * d, d, shift};
 }
 
-std::optional<UserGeometry::Root> Quadric::intersect(const Ray& ray, double tMin, double tMax,
+std::optional<UserGeometry::Root> Quadric::intersect(std::uint32_t, const Ray& ray, double tMin, double tMax,
                                                      std::span<const float> excludedT) const {
   const ObjectRay r = objectRay(ray);
   const bool startsHere = tMin <= 0 && excludedT.size() == 1 && excludedT.front() == 0;

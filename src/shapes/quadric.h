@@ -24,8 +24,10 @@ class Quadric : public Shape, public UserGeometry {
  public:
   Bounds3f bounds() const final;
   bool isClosed() const override { return false; }
+  std::uint32_t primitiveCount() const final { return 1; }
+  Bounds3f primitiveBounds(std::uint32_t) const final { return bounds(); }
   Geometry geometry() const final { return static_cast<const UserGeometry*>(this); }
-  std::optional<Root> intersect(const Ray& ray, double tMin, double tMax,
+  std::optional<Root> intersect(std::uint32_t primitive, const Ray& ray, double tMin, double tMax,
                                 std::span<const float> excludedT) const final;
   SurfaceInteraction interaction(const RayHit& hit, const Ray& ray) const final;
   Point2f uvAt(const RayHit& hit) const final { return hit.uv; }

@@ -12,8 +12,9 @@ using test::makeRay;
 /// Two parallel unit squares at z = 1 and z = 2, as one curved primitive would be: two roots on a line.
 class TwoSheets final : public UserGeometry {
  public:
-  Bounds3f bounds() const override { return {{0, 0, 1}, {1, 1, 2}}; }
-  std::optional<Root> intersect(const Ray& ray, double tMin, double tMax,
+  std::uint32_t primitiveCount() const override { return 1; }
+  Bounds3f primitiveBounds(std::uint32_t) const override { return {{0, 0, 1}, {1, 1, 2}}; }
+  std::optional<Root> intersect(std::uint32_t, const Ray& ray, double tMin, double tMax,
                                 std::span<const float> excludedT) const override {
     const double roots[2] = {(1.0 - ray.o.z) / ray.d.z, (2.0 - ray.o.z) / ray.d.z};
     bool isOpen[2] = {true, true};
@@ -29,6 +30,85 @@ class TwoSheets final : public UserGeometry {
     return best;
   }
 };
+
+/// Unit squares in rows, number i at (i % 8, i / 8) and height i, all of them seen from below.
+class ManySheets final : public UserGeometry {
+ public:
+  explicit ManySheets(std::uint32_t count) : count_(count) {}
+  std::uint32_t primitiveCount() const override { return count_; }
+  Bounds3f primitiveBounds(std::uint32_t i) const override {
+    const Point3f corner = cornerOf(i);
+    return {corner, corner + Vector3f{1, 1, 0}};
+  }
+  std::optional<Root> intersect(std::uint32_t i, const Ray& ray, double tMin, double tMax,
+                                std::span<const float> excludedT) const override {
+    const Point3f corner = cornerOf(i);
+    const double t = (double{corner.z} - ray.o.z) / ray.d.z;
+    const Vector3f at = ray.at(static_cast<float>(t)) - corner;
+    const bool isInside = at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1;
+    if (!isInside || !excludedT.empty() || t < tMin || t > tMax) return std::nullopt;
+    return Root{t, {at.x, at.y}};
+  }
+
+ private:
+  static Point3f cornerOf(std::uint32_t i) {
+    return {static_cast<float>(i % 8), static_cast<float>(i / 8 % 8), static_cast<float>(i)};
+  }
+  std::uint32_t count_;
+};
+
+TEST(UserGeometry, OfManyPrimitivesNamesTheOneThatIsHit) {
+  const ManySheets sheets(640);
+  Accelerator a;
+  EXPECT_EQ(a.addUser(sheets), 0u);
+  a.build();
+  EXPECT_EQ(a.bounds(), (Bounds3f{{0, 0, 0}, {8, 8, 639}}));
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    // Ten sheets above each other: each is left out on its own.
+    const Ray ray =
+        makeRay({static_cast<float>(i % 8) + 0.25f, static_cast<float>(i / 8) + 0.5f, -1}, {0, 0, 1});
+    Exclusions exclusions;
+    for (std::uint32_t primitive = i; primitive < 640; primitive += 64) {
+      const auto hit = a.intersect(ray, 0, exclusions);
+      ASSERT_TRUE(hit);
+      EXPECT_EQ(hit->id, (PrimitiveId{PrimitiveId::kNone, 0, primitive}));
+      EXPECT_EQ(hit->t, static_cast<float>(primitive) + 1);
+      EXPECT_EQ(hit->uv, Point2f(0.25f, 0.5f));
+      EXPECT_TRUE(a.occluded(ray, 0, exclusions));
+      exclusions.add(hit->id, hit->t);
+    }
+    EXPECT_FALSE(a.intersect(ray, 0, exclusions));
+    EXPECT_FALSE(a.occluded(ray, 0, exclusions));
+  }
+}
+
+TEST(UserGeometry, OfManyPrimitivesIsFoundThroughInstances) {
+  const ManySheets sheets(64);
+  Accelerator object, a;
+  object.addUser(sheets);
+  object.build();
+  a.addInstance(object, AnimatedTransform(Transform::translate({100, 0, 0})));
+  a.addInstance(object, AnimatedTransform(Transform(), 0, Transform::translate({0, 0, 2}), 1));
+  a.build();
+  const auto fixed = a.intersect(makeRay({103.5f, 2.5f, -1}, {0, 0, 1}), 0, {});
+  ASSERT_TRUE(fixed);
+  EXPECT_EQ(fixed->id, (PrimitiveId{0, 0, 19}));
+  const auto moving = a.intersect(makeRay({3.5f, 2.5f, -1}, {0, 0, 1}, kInfinity, 0.5f), 0, {});
+  ASSERT_TRUE(moving);
+  EXPECT_EQ(moving->id, (PrimitiveId{1, 0, 19}));
+  EXPECT_FLOAT_EQ(moving->t, 21);
+}
+
+TEST(UserGeometry, WithoutPrimitivesIsNeverHit) {
+  const ManySheets none(0), one(1);
+  Accelerator a;
+  a.addUser(none);
+  EXPECT_EQ(a.addUser(one), 1u);
+  a.build();
+  const auto hit = a.intersect(makeRay({0.5f, 0.5f, -1}, {0, 0, 1}), 0, {});
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->id, (PrimitiveId{PrimitiveId::kNone, 1, 0}));
+}
 
 TEST(UserGeometry, ReportsItsOwnNumbersAndIsExcludedRootByRoot) {
   const TwoSheets sheets;

@@ -24,14 +24,14 @@ void expectNoLeaks(const Shape& shape, int chords, float rounding) {
     const Vector3f local = sampleUniformHemisphere({c, e});
     if (local.z < rounding) continue;
     const Ray in = makeRay(s.p, -frame.toWorld(local));
-    const auto far = geometry.intersect(in, 0, kInfinity, atStart);
+    const auto far = geometry.intersect(0, in, 0, kInfinity, atStart);
     if (!far) {
       ++misses;
       continue;
     }
     const std::array<float, 2> both{0, static_cast<float>(far->t)};
-    if (geometry.intersect(in, far->t, kInfinity, both)) ++extra;
-    if (geometry.intersect(makeRay(s.p, -in.d), 0, kInfinity, atStart)) ++outside;
+    if (geometry.intersect(0, in, far->t, kInfinity, both)) ++extra;
+    if (geometry.intersect(0, makeRay(s.p, -in.d), 0, kInfinity, atStart)) ++outside;
   }
   EXPECT_EQ(misses, 0);
   EXPECT_EQ(extra, 0);

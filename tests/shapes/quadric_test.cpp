@@ -140,7 +140,7 @@ TEST(Hyperboloid, WhoseNormalsAreNotItsOwnStopsRaysOnTheirSide) {
   const Vector3f outward = normalize(Vector3f(-0.5f, 1, 0));
   const std::array start{0.0f};
   const auto stops = [&](Vector3f d) {
-    const auto root = hyperboloid.intersect(makeRay(p, d), 0, kInfinity, start);
+    const auto root = hyperboloid.intersect(0, makeRay(p, d), 0, kInfinity, start);
     return root && root->t == 0;
   };
   EXPECT_FALSE(stops(outward));
