@@ -181,8 +181,8 @@ class SceneAnalysis:
         merged = [weighted_mean(pictures, [s.cost.samples for s in run.slices]) for run, pictures in zip(entry.runs, images, strict=True)]
         result.picture = merged[0]
         result.flip, flip_map = self.tool.flip(merged[0], self.reference.image)
-        cost = result.works[self.case.clock].costs.mean()
-        result.maps = make_maps(flat, merged, self.reference, len(entry.runs[0].slices), float(cost), flip_map)
+        seconds = [getattr(s.cost, self.case.clock) for s in entry.slices()]
+        result.maps = make_maps(flat, merged, self.reference, len(entry.runs[0].slices), float(np.mean(seconds)), flip_map)
         result.worst = worst_pixels(flat, entry.slices(), self.reference.image)
         return result
 

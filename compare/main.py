@@ -68,10 +68,11 @@ def case_of(options: argparse.Namespace) -> Case:
 class Progress:
     """One line a slice on standard error, with the time that is left by what fresh slices took so far."""
 
-    def __init__(self, case: Case, scene: SceneCase):
-        self.case, self.name = case, scene.name
-        reference = 0 if scene.reference else case.reference_times
-        self.total = scene.budget * (case.repeats * len(case.compared()) + reference)
+    def __init__(self, case: Case):
+        self.case = case
+        # The single renders before the slices take up to one slice more.
+        repeats = case.repeats * len(case.compared()) * (1 + 1 / case.slices)
+        self.total = sum(s.budget * (repeats + (0 if s.reference else case.reference_times)) for s in case.scenes)
         self.done = self.fresh = 0.0
         self.begin = time.monotonic()
 
@@ -83,7 +84,7 @@ class Progress:
         self.fresh += cost
         left = max(0.0, self.total - self.done) * (time.monotonic() - self.begin) / self.fresh if self.fresh > 0 else 0
         share = min(99, round(100 * self.done / self.total))
-        print(f"[{share:2d} %, {duration(left)} left] {self.name}: {what}, seed {slice_.seed}, {slice_.cost.samples} spp: "
+        print(f"[{share:2d} %, {duration(left)} left] {what}, seed {slice_.seed}, {slice_.cost.samples} spp: "
               f"{slice_.cost.wall:.3g} s", file=sys.stderr, flush=True)
 
 
@@ -93,10 +94,11 @@ def duration(seconds: float) -> str:
     return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
 
 
-def compare_scene(case: Case, scene: SceneCase, store: SliceStore, tool: ImageTool, bin_folder: Path) -> tuple[SceneResult, list[Entry]]:
+def compare_scene(case: Case, scene: SceneCase, store: SliceStore, tool: ImageTool, bin_folder: Path,
+                  progress: Progress) -> tuple[SceneResult, list[Entry]]:
     """Renders and judges one scene."""
     entries = [Entry(s, Renderer(case, scene, s, bin_folder, store.folder)) for s in case.compared()]
-    schedule = Schedule(case, scene, store, Progress(case, scene))
+    schedule = Schedule(case, scene, store, lambda what, slice_: progress(f"{scene.name}: {what}", slice_))
     schedule.compare(entries)
     used = list(entries)
     if scene.reference:
@@ -122,9 +124,10 @@ def compare(options: argparse.Namespace) -> int:
     store = SliceStore(out.resolve() / "slices")
     tool = ImageTool(bin_folder)
     machine = provenance.machine(sys.argv)
+    progress = Progress(case)
     scenes = []
     for scene in case.scenes:
-        result, entries = compare_scene(case, scene, store, tool, bin_folder)
+        result, entries = compare_scene(case, scene, store, tool, bin_folder, progress)
         scenes.append((result, provenance.scene_provenance(result, entries, tool)))
         for name, failure in result.failures.items():
             print(f'pbrt-compare: error: {scene.name}: "{name}": {failure}', file=sys.stderr)

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import resource
 import shlex
 import shutil
 import subprocess
@@ -34,7 +35,10 @@ class Cost:
         if equal == "samples":
             return float(self.samples)
         if equal == "seconds":
-            return self.cpu if clock == "cpu" else self.wall
+            seconds = self.cpu if clock == "cpu" else self.wall
+            if seconds <= 0:
+                raise RenderFailure("too quick to be measured; compare at equal samples")
+            return seconds
         if not self.lookups:
             raise RenderFailure("no density look-ups are counted here, so that none can be equal; compare at equal seconds or samples")
         return float(self.lookups)
@@ -48,6 +52,12 @@ def read_cost(statistics: dict, wall: float, cpu: float, spp: int) -> Cost:
     seconds, counters = render["seconds"], render["counters"]
     return Cost(seconds["render"]["wall"], seconds["render"]["cpu"], seconds["parse"]["wall"] + seconds["construct"]["wall"],
                 counters["densityLookups"], counters["rays"] + counters["shadowRays"], render["samplesPerPixel"])
+
+
+def processor_seconds() -> float:
+    """Of all programs that were run so far and have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def file_hash(path: Path) -> str:
@@ -115,12 +125,11 @@ class Renderer:
         """Renders to `outfile`; the cost, and all statistics that the program gives. Throws RenderFailure."""
         statistics = outfile.with_name(outfile.name + ".stats.json")
         words = self.command(seed, spp, str(outfile), () if self.setting.command else ("--stats", str(statistics)))
-        before = os.times()
+        before = processor_seconds()
         begin = time.monotonic()
         with self.scene_file(seed, spp).open("rb") as scene:
             done = subprocess.run(words, cwd=self.folder, stdin=scene if self.lines else subprocess.DEVNULL, capture_output=True, check=False)
-        wall, after = time.monotonic() - begin, os.times()
-        cpu = after.children_user + after.children_system - before.children_user - before.children_system
+        wall, cpu = time.monotonic() - begin, processor_seconds() - before
         if done.returncode != 0 or not outfile.is_file():
             said = done.stderr.decode("utf-8", "replace").strip() or f"exit status {done.returncode}, no image, no word"
             raise RenderFailure(f"{shlex.join(words)}\n{said}")
