@@ -42,6 +42,15 @@ void request(StopCause cause) {
   stopRequested = true;
 }
 
+/// What the first request does. Safe in a signal handler.
+void begin() {
+  request(StopCause::Signal);
+  if (const char* notice = stopNotice) {
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, notice, std::strlen(notice));
+  }
+  ::sem_post(&watchIsTold);
+}
+
 void onSignal(int number) {
   const int savedError = errno;
   const double now = secondsNow();
@@ -54,11 +63,7 @@ void onSignal(int number) {
     errno = savedError;
     return;
   }
-  request(StopCause::Signal);
-  if (const char* notice = stopNotice) {
-    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, notice, std::strlen(notice));
-  }
-  ::sem_post(&watchIsTold);
+  begin();
   errno = savedError;
 }
 
@@ -135,5 +140,10 @@ StopSignal::~StopSignal() {
 const std::atomic<bool>& StopSignal::flag() const { return stopRequested; }
 
 void StopSignal::say(const char* notice) { stopNotice = notice; }
+
+void StopSignal::ask() {
+  double none = 0;
+  if (firstRequest.compare_exchange_strong(none, secondsNow())) begin();
+}
 
 }  // namespace pbrtmedia

@@ -38,6 +38,9 @@ class StopSignal {
   explicit operator bool() const { return flag(); }
   /// What the first signal from now on prints.
   static void say(const char* notice);
+  /// Asks as the first signal does, for those who ask in another way; asked again it changes nothing. While
+  /// an object is alive; thread-safe.
+  static void ask();
 
  private:
   class Watch;

@@ -30,6 +30,15 @@ TEST(StopSignal, TakesOneRequestDeliveredTwiceForOne) {
   EXPECT_TRUE(stop);
 }
 
+TEST(StopSignal, IsAskedWithoutASignalAsOftenAsAnybodyLikes) {
+  const StopSignal stop;
+  StopSignal::ask();
+  EXPECT_TRUE(stop);
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  StopSignal::ask();  // a second signal would end this process
+  EXPECT_TRUE(stop);
+}
+
 StopCause causeOfLeaving(void (*leave)()) {
   try {
     leave();
