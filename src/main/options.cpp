@@ -4,12 +4,33 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <stdexcept>
 
 #include "tools/command_line.h"
 
 namespace pbrtmedia {
 namespace {
+
+/// What `--serve` without a port is read as.
+constexpr const char* kAnywhere = "auto";
+
+Endpoint parseServedOrAnywhere(std::string_view text) {
+  return text == kAnywhere ? Endpoint{"127.0.0.1", kPagePort} : parseServed(text);
+}
+
+/// A check of an option's text by the function that reads it.
+std::function<std::string(std::string&)> problemOf(Endpoint (*parse)(std::string_view)) {
+  return [parse](std::string& text) -> std::string {
+    try {
+      parse(text);
+      return {};
+    } catch (const std::invalid_argument& e) {
+      return e.what();
+    }
+  };
+}
 
 std::string shellQuoted(const std::string& word) {
   constexpr std::string_view kPlain =
@@ -35,6 +56,7 @@ class OptionList {
     addFiles();
     addChecks();
     addReports();
+    addWatching();
     addOther();
   }
 
@@ -48,12 +70,15 @@ class OptionList {
   void addFiles();
   void addChecks();
   void addReports();
+  void addWatching();
   void addOther();
   std::string normalised(const std::string& word) const;
+  /// The words as CLI11 shall read them.
+  std::vector<std::string> prepared(const std::vector<std::string>& words) const;
   void setUpLog() const;
 
   static constexpr const char *kRendering = "Rendering", *kChecks = "Checks", *kReports = "Reports",
-                              *kOther = "Other";
+                              *kWatching = "Watching", *kOther = "Other";
 
   CLI::App app_{
       "Renders PBRT-v3 scene files.\n"
@@ -62,7 +87,7 @@ class OptionList {
   Options options_;
   std::vector<std::string> scenes_;
   std::vector<float> crop_;
-  std::string outfile_, stats_, boundsCache_, progress_ = "auto", logDirectory_;
+  std::string outfile_, stats_, boundsCache_, displayServer_, serve_, progress_ = "auto", logDirectory_;
   int minLogLevel_ = 0, verbosity_ = 0;
   bool logToStderr_ = false;
 };
@@ -159,6 +184,23 @@ void OptionList::addReports() {
       ->group(kReports);
 }
 
+void OptionList::addWatching() {
+  app_.add_option(
+          "--display-server", displayServer_,
+          "send the image so far to an image viewer that listens there, as tev does (without a port: " +
+              std::to_string(kTevPort) + ")")
+      ->check(CLI::Validator(problemOf(parseViewer), ""))
+      ->type_name("HOST:PORT")
+      ->group(kWatching);
+  app_.add_option("--serve", serve_,
+                  "serve a page that shows the render to a browser on this machine, at this port or one that "
+                  "is free; "
+                  "ADDRESS:PORT serves others too")
+      ->check(CLI::Validator(problemOf(parseServedOrAnywhere), ""))
+      ->type_name("[PORT]")
+      ->group(kWatching);
+}
+
 void OptionList::addOther() {
   app_.add_flag("--cat", options_.cat, "print the scene in a normal form; render nothing")->group(kOther);
   app_.add_flag("--toply", options_.toPly, "as --cat, with large meshes written to PLY files")->group(kOther);
@@ -188,16 +230,29 @@ void OptionList::setUpLog() const {
   if (!logToStderr_ && logDirectory_.empty() && minLogLevel_ == 0) FLAGS_minloglevel = google::GLOG_ERROR;
 }
 
-OptionsOutcome OptionList::read(const std::vector<std::string>& words) {
+std::vector<std::string> OptionList::prepared(const std::vector<std::string>& words) const {
   std::vector<std::string> known;
-  for (const std::string& word : words) known.push_back(normalised(word));
-  if (const std::optional<int> status = parseCommandLine(app_, known)) return {std::nullopt, *status};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    known.push_back(normalised(words[i]));
+    // The port may be left out, and CLI11 would take the scene for it.
+    const bool hasPort = i + 1 < words.size() && looksServed(words[i + 1]);
+    if (known.back() == "--serve" && !hasPort) known.back() += std::string("=") + kAnywhere;
+  }
+  return known;
+}
+
+OptionsOutcome OptionList::read(const std::vector<std::string>& words) {
+  if (const std::optional<int> status = parseCommandLine(app_, prepared(words)))
+    return {std::nullopt, *status};
 
   for (const std::string& scene : scenes_) options_.scenes.emplace_back(scene);
   if (options_.scenes.empty()) options_.scenes.emplace_back("-");
   if (!outfile_.empty()) options_.outfile = outfile_;
   if (!stats_.empty()) options_.statsFile = stats_;
   if (!boundsCache_.empty()) options_.boundsCache = boundsCache_;
+  if (!displayServer_.empty()) options_.displayServer = parseViewer(displayServer_);
+  if (!serve_.empty()) options_.serve = parseServedOrAnywhere(serve_);
+  options_.isServePortFixed = serve_ != kAnywhere;
   if (!crop_.empty()) {
     std::array<float, 4> window{};
     std::copy(crop_.begin(), crop_.end(), window.begin());

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "display/endpoint.h"
 #include "image/image.h"
 
 namespace pbrtmedia {
@@ -36,8 +37,11 @@ struct Options {
   std::string mediumParams;         ///< parameter list for the media with a density field; "": none
   std::optional<double> timeLimit;  ///< seconds of rendering
   int tileSize = 16;
-  WriteOptions write;       ///< how EXR files are stored
-  std::string commandLine;  ///< as typed, for the image header
+  std::optional<Endpoint> displayServer;  ///< the image viewer that gets the image so far
+  std::optional<Endpoint> serve;          ///< where the page that shows the render is served
+  bool isServePortFixed = true;           ///< false: another port will do
+  WriteOptions write;                     ///< how EXR files are stored
+  std::string commandLine;                ///< as typed, for the image header
 };
 
 /// What reading the command line led to: options to run with, or an exit status after help or an error was

@@ -18,6 +18,7 @@
 #include "main/progress.h"
 #include "main/statistics_report.h"
 #include "main/warnings.h"
+#include "main/watching.h"
 #include "render/integrator.h"
 #include "render/render_options.h"
 #include "scene/param_text.h"
@@ -143,7 +144,8 @@ int reportNoImage(const Interrupted& stopped, const Options& options, const Endi
   return kExitBadInput;
 }
 
-RenderResult renderImage(const Construction& scene, const Options& options, const Ending& ending) {
+RenderResult renderImage(const Construction& scene, const Options& options, const Ending& ending,
+                         Watching& watching) {
   RenderOptions loop;
   loop.seed = options.seed;
   loop.tileSize = options.tileSize;
@@ -154,16 +156,23 @@ RenderResult renderImage(const Construction& scene, const Options& options, cons
   loop.progress = [&](const RenderProgress& p) {
     line.update(static_cast<std::int64_t>(p.samplesDone), static_cast<std::int64_t>(p.samplesTotal),
                 std::max(0.0, timeLeft));
+    watching.update(p, std::max(0.0, timeLeft));
   };
+  if (watching.isOn()) {
+    loop.afterPass = [&](const PassEnd& pass) {
+      watching.afterPass(pass, *scene.film);
+      return true;
+    };
+  }
   RenderResult result = scene.integrator->render(*scene.camera, *scene.sampler, *scene.film, loop);
   line.finish(static_cast<std::int64_t>(result.samplesTaken), static_cast<std::int64_t>(result.samplesTotal));
   return result;
 }
 
-/// Writes what was rendered, a PNG beside it if that is wanted, and says where the files are. Sets `status`
-/// when an image is not where it should be.
-void writeRendered(const std::filesystem::path& outfile, const Image& image, const Options& options,
-                   int& status) {
+/// Writes what was rendered, a PNG beside it if that is wanted, and says where the files are: "wrote a.exr".
+/// Sets `status` when an image is not where it should be.
+std::string writeRendered(const std::filesystem::path& outfile, const Image& image, const Options& options,
+                          int& status) {
   std::vector<std::filesystem::path> wanted = {outfile};
   if (options.png && outfile.extension() != ".png") {
     wanted.push_back(outfile);
@@ -180,6 +189,7 @@ void writeRendered(const std::filesystem::path& outfile, const Image& image, con
     written += (written.empty() ? "" : " and ") + saved.file.string();
   }
   if (!options.quiet) std::cerr << "wrote " << written << '\n';
+  return "wrote " + written;
 }
 
 /// What a cache calls the world: names of files without folders, and its number among their worlds.
@@ -193,7 +203,8 @@ std::string worldName(const Options& options, std::size_t number) {
 /// built.
 std::optional<RenderStatistics> renderWorld(SceneDescription& description, const std::string& name,
                                             const Options& options, const PhaseTime& parseTime,
-                                            const Ending& ending, KeptBounds& bounds, int& status) {
+                                            const Ending& ending, Watching& watching, KeptBounds& bounds,
+                                            int& status) {
   RenderStatistics statistics;
   statistics.scene = sceneNames(options);
   statistics.seed = options.seed;
@@ -216,12 +227,14 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
     return std::nullopt;
   }
   SceneIdentity identity;
+  watching.enter("building");
   std::optional<Construction> scene = [&] {
     const PhaseLine line(options.progress, options.quiet, "building " + sceneNames(options));
     identity = identify(description, options.mediumParams, build.mediumParams);
     return construct(description, build, diagnostics);
   }();
   show(diagnostics, options.quiet);
+  watching.add(diagnostics);
   if (!scene) {
     status = kExitBadInput;
     return std::nullopt;
@@ -238,8 +251,9 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   if (!options.quiet) std::cerr << boundsWarnings;
 
   StopSignal::say(kImageSoFar);
+  watching.begin(statistics.outfile, statistics.samplesPerPixel);
   const Stopwatch rendering;
-  const RenderResult result = renderImage(*scene, options, ending);
+  const RenderResult result = renderImage(*scene, options, ending, watching);
   statistics.render = rendering.elapsed();
   statistics.samplesTaken = static_cast<std::int64_t>(result.samplesTaken);
   statistics.samplesPlanned = static_cast<std::int64_t>(result.samplesTotal);
@@ -249,14 +263,18 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
 
   if (result.samplesTaken == 0 && result.interrupted) leaveIfStopped();  // black would be a wrong image
   const Stopwatch writing;
-  writeRendered(scene->outfile, withHeader(scene->film->develop(), statistics, options, identity), options,
-                status);
+  watching.enter("writing");
+  const Image image = withHeader(scene->film->develop(), statistics, options, identity);
+  const std::string written = writeRendered(scene->outfile, image, options, status);
   bounds.save(name, *scene->scene);
   statistics.write = writing.elapsed();
   statistics.peakMemory = peakMemoryBytes();
 
   if (!options.quiet) std::cerr << describeStop(result);
-  std::cerr << describeFaults(result, options, scene->scene.get());
+  const std::string faults = describeFaults(result, options, scene->scene.get());
+  std::cerr << faults;
+  watching.warn(faults);
+  watching.finish(image, result, written);
   if (!options.quiet) std::cerr << describeRisingBounds(result.learning) << describeComplaints(*scene->scene);
   if (!options.quiet) std::cerr << formatStatistics(statistics);
   const bool isFaulty = result.counters.droppedTotal() > 0 || result.counters.boundViolations > 0;
@@ -275,6 +293,7 @@ int runPbrt(const Options& options) {
                          .timeLimit = options.timeLimit.value_or(StopSignal::kNever),
                          .abandonsPaths = true});
   const Ending ending{stop, Stopwatch()};
+  Watching watching(options);
 
   const Stopwatch parsing;
   Diagnostics diagnostics;
@@ -293,6 +312,7 @@ int runPbrt(const Options& options) {
   }
   reportSharedOutputs(worlds, options, diagnostics);
   show(diagnostics, options.quiet);
+  watching.add(diagnostics);
   if (diagnostics.hasErrors()) return kExitBadInput;
 
   KeptBounds bounds(options.boundsCache);
@@ -303,7 +323,7 @@ int runPbrt(const Options& options) {
     try {
       const std::optional<RenderStatistics> one =
           renderWorld(world, worldName(options, all.size()), options, all.empty() ? parseTime : PhaseTime{},
-                      ending, bounds, status);
+                      ending, watching, bounds, status);
       if (!one) return status;
       all.push_back(*one);
     } catch (const Interrupted& stopped) {
