@@ -72,14 +72,17 @@ void onSignal(int number) {
 /// A thread that sleeps until the time is up or a signal came, and then until the grace of paths is over.
 class StopSignal::Watch {
  public:
-  Watch(double deadline, bool abandonsPaths) {
+  Watch(double deadline, bool abandonsPaths) : deadline_(deadline) {
     while (::sem_trywait(&watchIsTold) == 0) {  // of an earlier watch
     }
-    thread_ = std::thread([this, deadline, abandonsPaths] {
-      if (!waitUntil(deadline)) request(StopCause::Time);
+    thread_ = std::thread([this, abandonsPaths] {
+      double end = deadline_;
+      bool isTold = waitUntil(end);
+      while (!isTold && end < deadline_) isTold = waitUntil(end = deadline_);
+      if (!isTold) request(StopCause::Time);
       if (!abandonsPaths || done_) return;
-      const double end = secondsNow() + kGrace;
-      while (waitUntil(end) && !done_) {
+      const double graceEnd = secondsNow() + kGrace;
+      while (waitUntil(graceEnd) && !done_) {
       }
       if (!done_) interruption::abandonsPaths = true;
     });
@@ -89,6 +92,7 @@ class StopSignal::Watch {
     ::sem_post(&watchIsTold);
     thread_.join();
   }
+  void extend(double seconds) { deadline_ = deadline_ + seconds; }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
@@ -105,6 +109,7 @@ class StopSignal::Watch {
     }
   }
 
+  std::atomic<double> deadline_;  // one thread writes
   std::atomic<bool> done_{false};
   std::thread thread_;
 };
@@ -138,6 +143,10 @@ StopSignal::~StopSignal() {
 }
 
 const std::atomic<bool>& StopSignal::flag() const { return stopRequested; }
+
+void StopSignal::extend(double seconds) const {
+  if (watch_) watch_->extend(seconds);
+}
 
 void StopSignal::say(const char* notice) { stopNotice = notice; }
 

@@ -35,6 +35,8 @@ class StopSignal {
   StopSignal& operator=(const StopSignal&) = delete;
 
   const std::atomic<bool>& flag() const;
+  /// Lets the time end so many seconds later, for what was done meanwhile that is not to count.
+  void extend(double seconds) const;
   explicit operator bool() const { return flag(); }
   /// What the first signal from now on prints.
   static void say(const char* notice);

@@ -130,15 +130,16 @@ void Film::accumulate(const SamplePass& pass) {
   CHECK(pass.bounds() == sampleBounds_) << "a pass must cover the sample bounds of its film";
   parallelFor(static_cast<std::size_t>(pixelBounds_.height()), [&](std::size_t row) {
     const int y = pixelBounds_.min.y + static_cast<int>(row);
-    accumulateRow(pass, y);
+    accumulateRow(pass, y, 0, 1, state_.sums);
+    if (hasHalves()) accumulateRow(pass, y, pass.firstIndex() % 2 == 0 ? 1 : 0, 2, state_.odd);
     if (!settings_.layers.isEmpty()) accumulateLayersOfRow(pass, y);
   });
 }
 
-void Film::accumulateRow(const SamplePass& pass, int y) {
-  Sums* const row =
-      state_.sums.data() + static_cast<std::ptrdiff_t>(y - pixelBounds_.min.y) * pixelBounds_.width();
-  for (int s = 0; s < pass.samplesPerPixel(); ++s) {
+void Film::accumulateRow(const SamplePass& pass, int y, int firstSlot, int step,
+                         std::vector<Sums>& all) const {
+  Sums* const row = all.data() + static_cast<std::ptrdiff_t>(y - pixelBounds_.min.y) * pixelBounds_.width();
+  for (int s = firstSlot; s < pass.samplesPerPixel(); s += step) {
     for (int x = pixelBounds_.min.x; x < pixelBounds_.max.x; ++x) {
       Sums sums = row[x - pixelBounds_.min.x];
       visitNeighbours(pass, filter_, s, {x, y},
@@ -196,9 +197,36 @@ Image Film::develop() const {
   return image;
 }
 
+void Film::keepHalves() {
+  if (!hasHalves()) state_.odd.resize(state_.sums.size());
+}
+
+Image Film::surrogateReference() const {
+  CHECK(hasHalves());
+  Image image = develop();
+  std::size_t i = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x, ++i) {
+      const Sums &all = state_.sums[i], &odd = state_.odd[i];
+      const double even = all.weight - odd.weight, product = even * odd.weight;
+      if (product == 0) continue;
+      // Filters with negative lobes may give a half a negative weight; the halves are then taken as equal.
+      const double scale = settings_.scale * (product > 0 ? std::sqrt(product) / all.weight : .5);
+      const auto error = [&](double sum, double ofOdd) {
+        return static_cast<float>(((sum - ofOdd) / even - ofOdd / odd.weight) * scale);
+      };
+      image.setRgb(x, y,
+                   image.rgb(x, y) - Rgb(error(all.r, odd.r), error(all.g, odd.g), error(all.b, odd.b)));
+    }
+  }
+  return image;
+}
+
 bool Film::restore(State state) {
   const std::size_t pixels = state_.sums.size();
-  if (state.sums.size() != pixels || state.layers.size() != state_.layers.size()) return false;
+  if (state.sums.size() != pixels || state.layers.size() != state_.layers.size() ||
+      state.odd.size() != state_.odd.size())
+    return false;
   if (!state.splats.empty() && state.splats.size() != pixels) return false;
   state_ = std::move(state);
   return true;

@@ -44,6 +44,7 @@ class Film {
   /// Everything the film remembers, row by row over `pixelBounds`.
   struct State {
     std::vector<Sums> sums;
+    std::vector<Sums> odd;         ///< of samples of odd index alone; empty unless halves are kept
     std::vector<double> layers;    ///< weighted sums, a value for each channel; empty without layers
     std::vector<SplatSum> splats;  ///< empty before the first one
     std::uint64_t splatPaths = 0;  ///< a whole number, as sums of it depend on no grouping
@@ -71,6 +72,10 @@ class Film {
   /// whose estimators have such samples, and would be biased without them.
   void keepNegatives() { keepsNegatives_ = true; }
   bool keepsNegatives() const { return keepsNegatives_; }
+  /// From now on samples of even and of odd index are told apart, for an estimate of the error: to be called
+  /// before the first sample. Costs a second set of sums, and half as much time again in adding passes.
+  void keepHalves();
+  bool hasHalves() const { return !state_.odd.empty(); }
   /// Adds a pass over exactly `sampleBounds`; parallel over rows.
   void accumulate(const SamplePass& pass);
   /// Adds splats, each with the filter's weights over the filter's integral, in their order: for each pixel
@@ -83,12 +88,19 @@ class Film {
   /// are set. Layers follow the colour, each a mean of samples as that is.
   Image develop() const;
 
+  /// The image less an estimate of its error from its halves, without clamping: with A and B the means of the
+  /// samples of even and of odd index, of weights a and b, (A - B) sqrt(a b) / (a + b) has the variance of
+  /// the error if samples are independent. Compared with this the image is as wrong as with the truth, but
+  /// for bias. Only when halves are kept; splats have none, and count as exact.
+  Image surrogateReference() const;
+
   /// For checkpoints, and back: false, changing nothing, for a state of another film.
   const State& state() const { return state_; }
   bool restore(State state);
 
  private:
-  void accumulateRow(const SamplePass& pass, int y);
+  /// Slots firstSlot, firstSlot + step ... of the pass, added to `sums`.
+  void accumulateRow(const SamplePass& pass, int y, int firstSlot, int step, std::vector<Sums>& sums) const;
   void accumulateLayersOfRow(const SamplePass& pass, int y);
   void addSplatsToRows(std::span<const Splat* const> splats, int firstRow, int lastRow);
 

@@ -7,8 +7,9 @@
 
 namespace pbrtmedia {
 
-SamplePass::SamplePass(Bounds2i sampleBounds, int samplesPerPixel, const LayerSet& layers)
-    : bounds_(sampleBounds), samples_(samplesPerPixel), layers_(layers) {
+SamplePass::SamplePass(Bounds2i sampleBounds, int samplesPerPixel, const LayerSet& layers,
+                       std::int64_t firstIndex)
+    : bounds_(sampleBounds), samples_(samplesPerPixel), firstIndex_(firstIndex), layers_(layers) {
   CHECK_GT(samplesPerPixel, 0);
   data_.resize(static_cast<std::size_t>(bounds_.area()) * static_cast<std::size_t>(samples_));
   layerData_.resize(data_.size() * layers_.channelCount());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "base/bounds.h"
@@ -19,9 +20,12 @@ class SamplePass {
     Rgb radiance;        ///< already multiplied by the camera's ray weight
     bool valid = false;  ///< false: not taken (stopped early); it then does not count at all
   };
-  SamplePass(Bounds2i sampleBounds, int samplesPerPixel, const LayerSet& layers = {});
+  /// `firstIndex`: of the samples.
+  SamplePass(Bounds2i sampleBounds, int samplesPerPixel, const LayerSet& layers = {},
+             std::int64_t firstIndex = 0);
   Bounds2i bounds() const { return bounds_; }
   int samplesPerPixel() const { return samples_; }
+  std::int64_t firstIndex() const { return firstIndex_; }
   Sample& at(Point2i pixel, int sample) { return data_[index(pixel, sample)]; }
   const Sample& at(Point2i pixel, int sample) const { return data_[index(pixel, sample)]; }
   /// Where a sample puts its layers; of no effect where there are none.
@@ -40,6 +44,7 @@ class SamplePass {
   std::size_t index(Point2i pixel, int sample) const;
   Bounds2i bounds_;
   int samples_;
+  std::int64_t firstIndex_;
   LayerSet layers_;
   std::vector<Sample> data_;
   std::vector<float> layerData_;  ///< empty without layers

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "image/metrics.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -12,17 +14,20 @@ namespace {
 /// Sums of one channel; mean values come out at the end.
 class Accumulator {
  public:
-  void add(double test, double reference, Point2i pixel, double epsilon) {
-    const double d = test - reference, squared = d * d;
+  /// Answers the relative squared error.
+  double add(double test, double reference, Point2i pixel, double epsilon) {
+    const double d = test - reference, relative = d * d / (reference * reference + epsilon);
     test_ += test;
     reference_ += reference;
     signed_ += d;
-    squared_ += squared;
-    relative_ += squared / (reference * reference + epsilon);
+    squared_ += d * d;
+    relative_ += relative;
+    if (d != 0) smape_ += std::abs(d) / ((std::abs(test) + std::abs(reference)) / 2);
     if (std::abs(d) > maxAbs_) {
       maxAbs_ = std::abs(d);
       maxAt_ = pixel;
     }
+    return relative;
   }
   void add(const Accumulator& o) {
     test_ += o.test_;
@@ -30,6 +35,7 @@ class Accumulator {
     signed_ += o.signed_;
     squared_ += o.squared_;
     relative_ += o.relative_;
+    smape_ += o.smape_;
   }
   void fill(ErrorSummary& out, double count) const {
     out.meanTest = test_ / count;
@@ -38,14 +44,24 @@ class Accumulator {
     out.mse = squared_ / count;
     out.rmse = std::sqrt(out.mse);
     out.relativeMse = relative_ / count;
+    out.smape = smape_ / count;
     out.maxAbs = maxAbs_;
     out.maxAt = maxAt_;
   }
 
  private:
-  double test_ = 0, reference_ = 0, signed_ = 0, squared_ = 0, relative_ = 0, maxAbs_ = 0;
+  double test_ = 0, reference_ = 0, signed_ = 0, squared_ = 0, relative_ = 0, smape_ = 0, maxAbs_ = 0;
   Point2i maxAt_;
 };
+
+/// Mean of what pixels have each, without the worst; changes their order.
+double robustMean(std::vector<double>& ofPixels) {
+  const std::size_t dropped = (ofPixels.size() + kPixelsPerWorst - 1) / kPixelsPerWorst;
+  if (dropped == ofPixels.size()) return 0;
+  const auto end = ofPixels.end() - static_cast<std::ptrdiff_t>(dropped);
+  std::nth_element(ofPixels.begin(), end, ofPixels.end());
+  return std::accumulate(ofPixels.begin(), end, 0.0) / static_cast<double>(end - ofPixels.begin());
+}
 
 std::optional<std::string> whyNotComparable(const Image& test, const Image& reference) {
   std::ostringstream why;
@@ -93,16 +109,21 @@ std::variant<ImageDifference, ComparisonFailure> compareImages(const Image& test
   std::vector<std::size_t> inTest;
   for (const std::string& name : reference.channels()) inTest.push_back(*test.channelIndex(name));
   std::vector<Accumulator> sums(channels);
+  // Relative errors by channel, and their mean over the channels, of all pixels.
+  std::vector<std::vector<double>> relative(channels + 1);
   ImageDifference result;
   result.epsilon = epsilon;
   for (int y = 0; y < reference.height(); ++y) {
     for (int x = 0; x < reference.width(); ++x) {
       bool differs = false;
+      double sum = 0;
       for (std::size_t c = 0; c < channels; ++c) {
         const float a = test.at(x, y, inTest[c]), b = reference.at(x, y, c);
         differs |= a != b;
-        sums[c].add(static_cast<double>(a), static_cast<double>(b), {x, y}, epsilon);
+        relative[c].push_back(sums[c].add(static_cast<double>(a), static_cast<double>(b), {x, y}, epsilon));
+        sum += relative[c].back();
       }
+      relative[channels].push_back(sum / static_cast<double>(channels));
       if (differs) ++result.differingPixels;
     }
   }
@@ -113,10 +134,12 @@ std::variant<ImageDifference, ComparisonFailure> compareImages(const Image& test
     ChannelError e;
     e.channel = reference.channels()[c];
     sums[c].fill(e, pixels);
+    e.relativeMseRobust = robustMean(relative[c]);
     result.channels.push_back(e);
     all.add(sums[c]);
   }
   all.fill(result.total, pixels * static_cast<double>(channels));
+  result.total.relativeMseRobust = robustMean(relative[channels]);
   result.maxChannel = reference.channels().front();
   for (const ChannelError& e : result.channels) {
     if (e.maxAbs > result.total.maxAbs) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -12,6 +13,8 @@
 namespace pbrtmedia {
 
 inline constexpr double kRelativeMseEpsilon = 1e-2;
+/// A robust mean leaves out the worst of so many pixels: the protocol of papers on path guiding.
+inline constexpr std::size_t kPixelsPerWorst = 10000;
 
 /// Errors of one channel, or of all together. All sums are in double.
 struct ErrorSummary {
@@ -20,8 +23,12 @@ struct ErrorSummary {
   double mse = 0;          ///< mean of (test - reference)^2
   double rmse = 0;         ///< sqrt(mse)
   double relativeMse = 0;  ///< mean of (test - reference)^2 / (reference^2 + eps)
-  double maxAbs = 0;       ///< max of |test - reference|
-  Point2i maxAt;           ///< pixel of the first such maximum, from the top left of the image
+  /// The same without the worst pixels by this error, a mean over the channels: one of kPixelsPerWorst,
+  /// rounded up.
+  double relativeMseRobust = 0;
+  double smape = 0;   ///< mean of |test - reference| / ((|test| + |reference|) / 2), 0 where both are 0
+  double maxAbs = 0;  ///< max of |test - reference|
+  Point2i maxAt;      ///< pixel of the first such maximum, from the top left of the image
 };
 
 struct ChannelError : ErrorSummary {

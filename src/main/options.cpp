@@ -87,7 +87,8 @@ class OptionList {
   Options options_;
   std::vector<std::string> scenes_;
   std::vector<float> crop_;
-  std::string outfile_, stats_, boundsCache_, displayServer_, serve_, progress_ = "auto", logDirectory_;
+  std::string outfile_, stats_, boundsCache_, convergence_, reference_, displayServer_, serve_;
+  std::string progress_ = "auto", logDirectory_;
   int minLogLevel_ = 0, verbosity_ = 0;
   bool logToStderr_ = false;
 };
@@ -123,6 +124,16 @@ void OptionList::addSampling() {
           "image when that is nothing yet")
       ->check(number(NumberRange::above(0)))
       ->type_name("SECONDS")
+      ->group(kRendering);
+  app_.add_option("--error", options_.mostError,
+                  "stop when the estimated relative error of the image is at most this (0.02: 2 %)")
+      ->check(number(NumberRange::above(0)))
+      ->type_name("E")
+      ->group(kRendering);
+  app_.add_option("--lookups", options_.mostLookups,
+                  "stop after the pass in which so many densities of media have been looked up")
+      ->check(number(NumberRange::atLeast(1)))
+      ->type_name("N")
       ->group(kRendering);
   app_.add_flag("--quick", options_.quick, "a quarter of the resolution each way, one sample per pixel")
       ->group(kRendering);
@@ -164,9 +175,11 @@ void OptionList::addChecks() {
   app_.add_flag("--lenient", options_.lenient,
                 "the default, kept as a word: what PBRT-v3 renders is rendered, with warnings")
       ->group(kChecks);
-  app_.add_flag("--strict", options_.strict,
-                "what PBRT-v3 renders in spite of a mistake is an error; "
-                "exit with 2 when samples were dropped or a density bound was violated")
+  app_.add_flag(
+          "--strict", options_.strict,
+          "what PBRT-v3 renders in spite of a mistake is an error; "
+          "exit with 2 when samples were dropped or a density bound was violated, with 3 when the image "
+          "has fewer samples than planned")
       ->group(kChecks);
 }
 
@@ -178,6 +191,16 @@ void OptionList::addReports() {
                   "auto (default): a live line on a terminal; plain: a line now and then; none")
       ->transform(oneOf({"auto", "plain", "none"}))
       ->type_name("MODE")
+      ->group(kReports);
+  CLI::Option* const convergence =
+      app_.add_option("--convergence", convergence_,
+                      "write how the error falls with time (docs/convergence.md); without --reference it is "
+                      "estimated")
+          ->type_name("FILE.csv")
+          ->group(kReports);
+  app_.add_option("--reference", reference_, "the image that --convergence measures against")
+      ->needs(convergence)
+      ->type_name("FILE")
       ->group(kReports);
   app_.add_option("--stats", stats_, "write times, counters and memory as JSON")
       ->type_name("FILE.json")
@@ -250,6 +273,8 @@ OptionsOutcome OptionList::read(const std::vector<std::string>& words) {
   if (!outfile_.empty()) options_.outfile = outfile_;
   if (!stats_.empty()) options_.statsFile = stats_;
   if (!boundsCache_.empty()) options_.boundsCache = boundsCache_;
+  if (!convergence_.empty()) options_.convergence = convergence_;
+  if (!reference_.empty()) options_.reference = reference_;
   if (!displayServer_.empty()) options_.displayServer = parseViewer(displayServer_);
   if (!serve_.empty()) options_.serve = parseServedOrAnywhere(serve_);
   options_.isServePortFixed = serve_ != kAnywhere;

@@ -35,7 +35,11 @@ struct Options {
   ProgressMode progress = ProgressMode::Auto;
   std::optional<std::filesystem::path> boundsCache;
   std::string mediumParams;         ///< parameter list for the media with a density field; "": none
-  std::optional<double> timeLimit;  ///< seconds of rendering
+  std::optional<double> timeLimit;  ///< seconds since the start
+  std::optional<double> mostError;  ///< relative: stop when the image is as good
+  std::optional<double> mostLookups;
+  std::optional<std::filesystem::path> reference,
+      convergence;  ///< what to measure against, and where to write
   int tileSize = 16;
   std::optional<Endpoint> displayServer;  ///< the image viewer that gets the image so far
   std::optional<Endpoint> serve;          ///< where the page that shows the render is served

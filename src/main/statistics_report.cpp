@@ -79,10 +79,12 @@ nlohmann::ordered_json toJson(const RenderStatistics& s) {
           {"samplesPlanned", s.samplesPlanned},
           {"threads", s.threads},
           {"interrupted", s.interrupted},
+          {"stoppedBy", s.stoppedBy},
           {"seconds",
            {{"parse", toJson(s.parse)},
             {"construct", toJson(s.construct)},
             {"render", toJson(s.render)},
+            {"measure", toJson(s.measure)},
             {"write", toJson(s.write)}}},
           {"counters", toJson(s.counters)},
           {"learnedBounds", toJson(s.learning)},
@@ -103,7 +105,9 @@ std::string formatStatistics(const RenderStatistics& s) {
     return formatDuration(t.wall) + " (cpu " + formatDuration(t.cpu) + ")";
   };
   os << "  time      parse " << phase(s.parse) << ", construct " << phase(s.construct) << ", render "
-     << phase(s.render) << ", write " << phase(s.write) << '\n';
+     << phase(s.render);
+  if (s.measure.wall > 0) os << ", measure " << phase(s.measure);
+  os << ", write " << phase(s.write) << '\n';
   if (s.samplesTaken > 0) {
     os << "  samples   " << formatCount(static_cast<double>(s.samplesTaken)) << ", "
        << 1e6 * s.render.cpu / static_cast<double>(s.samplesTaken) << " us of CPU each\n";

@@ -22,7 +22,8 @@ struct RenderStatistics {
   std::int64_t samplesPlanned = 0;
   unsigned threads = 0;
   bool interrupted = false;
-  PhaseTime parse, construct, render, write;
+  std::string stoppedBy;  ///< RenderedImage::stoppedBy
+  PhaseTime parse, construct, render, measure, write;
   RenderCounters counters;
   std::vector<LearningRecord> learning;  ///< of media with progressive bounds
   std::size_t peakMemory = 0;            ///< bytes

@@ -28,7 +28,7 @@ PassLoop::PassLoop(const Scene& scene, const RenderOptions& options, const Plan&
       plan_(plan),
       result_(resultAtStart(options, plan)),
       learning_(scene, result_),
-      secondsBefore_(result_.seconds),
+      timeBefore_{result_.seconds, result_.cpuSeconds},
       schedule_({.first = result_.completedSamplesPerPixel,
                  .end = plan.samplesPerIndex > 0 ? plan.end : 0,
                  .mostPerPass = learning_.isNeeded() ? 1 : plan.mostPerPass},
@@ -37,7 +37,7 @@ PassLoop::PassLoop(const Scene& scene, const RenderOptions& options, const Plan&
 
 RenderResult PassLoop::run(const RenderPass& renderPass) {
   if (result_.samplesTotal > 0) learning_.warmUp(options_.seed, [this] { return shouldStop(); });
-  while (const std::optional<Pass> pass = schedule_.next()) {
+  while (const std::optional<Pass> pass = schedule_.next(result_.counters.densityLookups)) {
     const std::vector<UnitReport> units = renderPass(*pass);
     const std::uint64_t samplesBefore = result_.samplesTaken;
     const bool complete =
@@ -50,23 +50,32 @@ RenderResult PassLoop::run(const RenderPass& renderPass) {
   if (plan_.samplesPerIndex == 0)
     result_.completedSamplesPerPixel = std::max(plan_.end, options_.firstSample);
   result_.interrupted = result_.samplesTaken < result_.samplesTotal;
-  result_.seconds = progress().seconds;
+  if (result_.interrupted) {
+    result_.stoppedBy = schedule_.reasonToStop(result_.counters.densityLookups);
+    if (result_.stoppedBy == EarlyStop::None) result_.stoppedBy = EarlyStop::Asked;
+  }
+  noteTime();
   return std::move(result_);
 }
 
 bool PassLoop::goesOn() {
   if (!options_.afterPass) return true;
-  const RenderProgress now = progress();
-  result_.seconds = now.seconds;
+  noteTime();
   const Stopwatch hook;
-  const bool answer = options_.afterPass({now, result_});
-  schedule_.leaveOut(hook.seconds());
+  const bool answer = options_.afterPass({progress(), result_});
+  schedule_.leaveOut(hook.elapsed());
   return answer;
+}
+
+void PassLoop::noteTime() {
+  const PhaseTime time = schedule_.time();
+  result_.seconds = timeBefore_.wall + time.wall;
+  result_.cpuSeconds = timeBefore_.cpu + time.cpu;
 }
 
 RenderProgress PassLoop::progress() const {
   return {samplesDone_.load(std::memory_order_relaxed), result_.samplesTotal,
-          secondsBefore_ + schedule_.seconds()};
+          timeBefore_.wall + schedule_.seconds()};
 }
 
 void PassLoop::reportProgress() {

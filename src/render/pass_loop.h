@@ -44,6 +44,8 @@ class PassLoop {
 
  private:
   static RenderResult resultAtStart(const RenderOptions& options, const Plan& plan);
+  /// Seconds of this part and of those before.
+  void noteTime();
   RenderProgress progress() const;
   bool goesOn();
 
@@ -51,7 +53,7 @@ class PassLoop {
   Plan plan_;
   RenderResult result_;
   BoundsLearning learning_;
-  double secondsBefore_;  ///< of an earlier part of the render
+  PhaseTime timeBefore_;  ///< of an earlier part of the render
   Schedule schedule_;
   std::atomic<std::uint64_t> samplesDone_;
   std::mutex progressMutex_;

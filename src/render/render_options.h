@@ -37,6 +37,10 @@ struct RenderOptions {
   std::optional<Bounds2i> pixelBounds = std::nullopt;  ///< further limits where samples are taken
   int tileSize = 16;                                   ///< pixels; has no effect on the image
   std::optional<int> samplesPerPass = std::nullopt;    ///< has no effect on the image; default: by memory
+  /// A pass has at most this share of the samples so far, for who looks on often; has no effect on the image.
+  std::optional<double> mostGrowth = std::nullopt;
+  /// Density look-ups: the render stops after the pass that reaches so many, and passes shrink toward it.
+  std::optional<std::uint64_t> mostLookups = std::nullopt;
   double timeLimit = std::numeric_limits<double>::infinity();  ///< seconds of rendering
   const std::atomic<bool>* stop = nullptr;                     ///< set to true: stop soon
   /// Called on the calling thread after each whole pass. False: stop. What it takes is no time of rendering.

@@ -49,13 +49,17 @@ struct LearningRecord {
   static constexpr double kMostShortfall = 1e-3;
 };
 
+/// What ended a render before its last sample.
+enum class EarlyStop { None, Asked, Time, Lookups };
+
 /// What came of a render besides the image.
 struct RenderResult {
   std::uint64_t samplesTaken = 0, samplesTotal = 0;
   std::int64_t completedSamplesPerPixel = 0;  ///< sample indices below it are taken in every pixel
   RenderCounters counters;
-  double seconds = 0;        ///< without those of RenderOptions::afterPass
-  bool interrupted = false;  ///< stopped before the last sample
+  double seconds = 0, cpuSeconds = 0;     ///< wall-clock and of all threads, without RenderOptions::afterPass
+  bool interrupted = false;               ///< stopped before the last sample
+  EarlyStop stoppedBy = EarlyStop::None;  ///< Asked: by RenderOptions::stop or afterPass
   /// Samples whose paths were under way when the run was to stop and did not end soon: not on the film.
   std::uint64_t samplesAbandoned = 0;
   std::uint64_t pixelsTotal = 0, pixelsSampled = 0;  ///< the latter have a sample at least

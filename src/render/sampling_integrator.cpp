@@ -59,7 +59,7 @@ class TileLoop {
   }
 
   std::vector<UnitReport> renderPass(const Pass& pass) {
-    SamplePass samples(film_.sampleBounds(), pass.count, film_.layers());
+    SamplePass samples(film_.sampleBounds(), pass.count, film_.layers(), pass.first);
     std::vector<UnitReport> reports(tiles_.size());
     std::vector<SplatBuffer> splats(integrator_.makesSplats() ? tiles_.size() : 0);
     parallelFor(tiles_.size(), [&](std::size_t i) {

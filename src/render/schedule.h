@@ -7,6 +7,7 @@
 
 #include "base/stopwatch.h"
 #include "render/render_options.h"
+#include "render/render_result.h"
 
 namespace pbrtmedia {
 
@@ -27,23 +28,27 @@ class Schedule {
   /// `options` must outlive the object; the time runs from now on.
   Schedule(const Plan& plan, const RenderOptions& options);
 
-  /// The next pass; nothing when all samples are scheduled or it is time to stop.
-  std::optional<Pass> next();
+  /// The next pass; nothing when all samples are scheduled or it is time to stop. `lookups`: so far.
+  std::optional<Pass> next(std::uint64_t lookups);
+  /// Why no further pass should begin; None: no reason.
+  EarlyStop reasonToStop(std::uint64_t lookups) const;
   /// Whether to leave at once what is under way. Thread-safe, cheap enough for each sample.
   bool shouldStop() const;
   /// Of rendering so far.
-  double seconds() const { return watch_.seconds() - elsewhere_; }
-  /// `seconds` of those that passed were none of rendering.
-  void leaveOut(double seconds) { elsewhere_ += seconds; }
+  double seconds() const { return watch_.seconds() - elsewhere_.wall; }
+  /// The same, with those of all threads.
+  PhaseTime time() const;
+  /// Some of what passed was no time of rendering.
+  void leaveOut(const PhaseTime& time) { elsewhere_ += time; }
 
  private:
   bool isTimed() const;
-  std::int64_t passSize() const;
+  std::int64_t passSize(std::uint64_t lookups) const;
 
   Plan plan_;
   const RenderOptions& options_;
   Stopwatch watch_;
-  double elsewhere_ = 0;
+  PhaseTime elsewhere_;
   int passes_ = 0;
 };
 

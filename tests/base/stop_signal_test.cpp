@@ -79,6 +79,20 @@ TEST(StopSignal, StopsWhenTheTimeIsUpAndLeavesNothingBehind) {
   EXPECT_FALSE(again);
 }
 
+TEST(StopSignal, LetsTheTimeEndLaterForWhatDoesNotCount) {
+  const StopSignal stop({.timeLimit = 0.1});
+  const auto start = std::chrono::steady_clock::now();
+  stop.extend(0.1);
+  stop.extend(0.2);
+  waitFor([&] { return stop.flag().load(); });
+  EXPECT_TRUE(stop);
+  EXPECT_EQ(causeOfLeaving(leaveIfStopped), StopCause::Time);
+  EXPECT_GE(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 0.38);
+  const StopSignal endless;
+  endless.extend(1);
+  EXPECT_FALSE(endless);
+}
+
 TEST(StopSignal, LeavesAHangupIgnoredWhereItWas) {
   std::signal(SIGHUP, SIG_IGN);  // as nohup does
   {

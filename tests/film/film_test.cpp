@@ -334,6 +334,53 @@ TEST(Film, RestoresItsSums) {
   EXPECT_EQ(film.state(), resumed.state()) << "as it was";
 }
 
+// ---- Halves
+
+TEST(Halves, TellTheErrorOfTheImageWithoutTheTruth) {
+  // Noise of variance 1/12 around a half, under a box of a pixel.
+  for (const int samples : {2, 3, 8}) {
+    Film film(sized(100, 80), *box());
+    film.keepHalves();
+    const SamplePass all = filled(film, samples, [](Rng& rng) { return Rgb(rng.uniform()); });
+    film.accumulate(all);
+    const Image image = film.develop(), surrogate = film.surrogateReference();
+    double squares = 0;
+    for (std::size_t i = 0; i < image.data().size(); i += 3) {
+      const double d = static_cast<double>(image.data()[i]) - static_cast<double>(surrogate.data()[i]);
+      squares += d * d / (100 * 80);
+    }
+    const double variance = 1.0 / 12 / samples;
+    EXPECT_LT(std::abs(squares - variance) / (variance * std::sqrt(2.0 / (100 * 80))), 5) << samples;
+  }
+}
+
+TEST(Halves, DependOnNoGroupingAndChangeNoSum) {
+  Film plain(sized(9, 7), GaussianFilter({})), whole(sized(9, 7), GaussianFilter({})),
+      parts(sized(9, 7), GaussianFilter({})), none(sized(9, 7), GaussianFilter({}));
+  for (Film* film : {&whole, &parts}) film->keepHalves();
+  const SamplePass all = filled(plain, 5, noise);
+  plain.accumulate(all);
+  whole.accumulate(all);
+  for (int s = 0; s < 5; ++s) {
+    SamplePass one(all.bounds(), 1, {}, s);
+    for (int y = all.bounds().min.y; y < all.bounds().max.y; ++y) {
+      for (int x = all.bounds().min.x; x < all.bounds().max.x; ++x) one.at({x, y}, 0) = all.at({x, y}, s);
+    }
+    parts.accumulate(one);
+  }
+  EXPECT_EQ(whole.state().sums, plain.state().sums);
+  EXPECT_EQ(whole.state(), parts.state());
+  EXPECT_TRUE(plain.state().odd.empty());
+  EXPECT_FALSE(plain.hasHalves());
+  EXPECT_FALSE(none.restore(whole.state())) << "another kind of film";
+  // Where all samples are equal the halves are, too.
+  Film flat(sized(9, 7), GaussianFilter({}));
+  flat.keepHalves();
+  flat.accumulate(filled(flat, 4, [](Rng&) { return Rgb(.5f, 1, 2); }));
+  const Image a = flat.develop(), b = flat.surrogateReference();
+  for (std::size_t i = 0; i < a.data().size(); ++i) EXPECT_NEAR(a.data()[i], b.data()[i], 1e-6f);
+}
+
 // ---- Splats
 
 std::vector<SplatBuffer> oneSplat(Point2f at, Rgb value) {

@@ -38,11 +38,32 @@ TEST(Metrics, AgreeWithHandComputedValues) {
   EXPECT_DOUBLE_EQ(d.total.rmse, std::sqrt(5.25 / 4));
   // 0/2 + 1/5 + 4/10 + 0.25/1
   EXPECT_DOUBLE_EQ(d.total.relativeMse, 0.85 / 4);
+  // 0/1 + 1/2.5 + 2/2 + 0.5/0.25
+  EXPECT_DOUBLE_EQ(d.total.smape, (1 / 2.5 + 1 + 2) / 4);
+  EXPECT_DOUBLE_EQ(d.total.relativeMseRobust, 0.45 / 3) << "without the pixel of 4/10";
   EXPECT_DOUBLE_EQ(d.total.maxAbs, 2);
   EXPECT_EQ(d.total.maxAt, (Point2i{0, 1}));
   EXPECT_EQ(d.maxChannel, "Y");
   EXPECT_EQ(d.differingPixels, 3);
   EXPECT_DOUBLE_EQ(d.channels[0].mse, d.total.mse);
+}
+
+TEST(Metrics, RobustMeansLeaveTheWorstTenThousandthOut) {
+  // 29999 pixels: three are left out. By the mean over channels pixel 100 is the fourth worst.
+  Image test(29999, 1, {"R", "G"}), reference(29999, 1, {"R", "G"});
+  for (float& v : reference.data()) v = 1;
+  for (float& v : test.data()) v = 1.5f;
+  test.at(7, 0, 0) = 1001;
+  test.at(8, 0, 1) = 101;
+  for (const std::size_t c : {0, 1}) {
+    test.at(29998, 0, c) = 61;
+    test.at(100, 0, c) = 11;
+  }
+  const ImageDifference d = differenceOf(test, reference, 1.0);
+  EXPECT_GT(d.total.relativeMse, 8);
+  EXPECT_DOUBLE_EQ(d.total.relativeMseRobust, (29995 * .125 + 50) / 29996);
+  EXPECT_DOUBLE_EQ(d.channels[1].relativeMseRobust, .125);
+  EXPECT_EQ(differenceOf(Image(1, 1), Image(1, 1)).total.relativeMseRobust, 0) << "nothing is left";
 }
 
 TEST(Metrics, DefaultEpsilonIsOneHundredth) {

@@ -57,6 +57,8 @@ json summaryJson(const ErrorSummary& e) {
           {"mse", e.mse},
           {"rmse", e.rmse},
           {"relativeMse", e.relativeMse},
+          {"relativeMseRobust", e.relativeMseRobust},
+          {"smape", e.smape},
           {"maxAbs", e.maxAbs},
           {"maxAt", {e.maxAt.x, e.maxAt.y}}};
 }
@@ -78,7 +80,8 @@ void printJson(const DiffOptions& options, const ImageDifference& d, const std::
 
 void printSummary(const std::string& name, const ErrorSummary& e) {
   std::cout << "  " << name << ": mean signed " << e.meanSigned << "  MSE " << e.mse << "  RMSE " << e.rmse
-            << "  relative MSE " << e.relativeMse << "  max " << e.maxAbs << " at " << e.maxAt << '\n';
+            << "  relative MSE " << e.relativeMse << " (robust " << e.relativeMseRobust << ")  SMAPE "
+            << e.smape << "  max " << e.maxAbs << " at " << e.maxAt << '\n';
 }
 
 void printText(const DiffOptions& options, const ImageDifference& d, const std::optional<double>& flip,
@@ -90,7 +93,9 @@ void printText(const DiffOptions& options, const ImageDifference& d, const std::
   std::cout << "  means: a " << d.total.meanTest << ", b " << d.total.meanReference
             << "; mean signed: a - b\n"
             << "  largest difference in channel " << d.maxChannel << '\n'
-            << "  relative MSE: mean over pixels and channels of (a - b)^2 / (b^2 + " << d.epsilon << ")\n";
+            << "  relative MSE: mean over pixels and channels of (a - b)^2 / (b^2 + " << d.epsilon << ")\n"
+            << "  robust: without the worst of " << kPixelsPerWorst << " pixels, rounded up\n"
+            << "  SMAPE: mean of |a - b| / ((|a| + |b|) / 2)\n";
   if (flip) std::cout << "  FLIP (LDR, values clamped to [0, 1]): " << *flip << '\n';
   for (const std::string& reason : verdict.reasons) std::cout << "  " << reason << '\n';
   std::cout << (verdict.agree ? "  the images agree\n" : "  the images differ\n");

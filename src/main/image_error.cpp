@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "main/image_error.h"
+
+#include <cmath>
+#include <variant>
+
+namespace pbrtmedia {
+namespace {
+
+/// By how much samples grow from one look to the next: then an image is at most a tenth too good.
+constexpr double kGrowth = 1.1;
+
+}  // namespace
+
+Image cutOut(const Image& image, Bounds2i wanted) {
+  Image out(wanted.width(), wanted.height());
+  out.dataWindow = wanted;
+  out.displayWindow = image.displayWindow;
+  const Point2i shift{wanted.min.x - image.dataWindow.min.x, wanted.min.y - image.dataWindow.min.y};
+  for (int y = 0; y < out.height(); ++y) {
+    for (int x = 0; x < out.width(); ++x) out.setRgb(x, y, image.rgb(x + shift.x, y + shift.y));
+  }
+  return out;
+}
+
+std::optional<ErrorSummary> estimatedError(const Film& film, Bounds2i pixels, const RenderResult& result) {
+  if (!film.hasHalves() || result.samplesTaken < 2 * result.pixelsTotal) return std::nullopt;
+  const auto difference =
+      compareImages(cutOut(film.develop(), pixels), cutOut(film.surrogateReference(), pixels));
+  return std::get<ImageDifference>(difference).total;
+}
+
+bool ErrorTarget::isReached(const RenderResult& result) {
+  const auto samples = static_cast<double>(result.samplesTaken);
+  if (samples < nextLook_) return false;
+  nextLook_ = kGrowth * samples;
+  const std::optional<ErrorSummary> error = estimatedError(film_, pixels_, result);
+  return error && std::sqrt(error->relativeMse) <= most_;
+}
+
+}  // namespace pbrtmedia

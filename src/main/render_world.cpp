@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "main/render_world.h"
+
+#include <iostream>
+#include <vector>
+
+#include "base/parallel.h"
+#include "construct/construct.h"
+#include "construct/scene_identity.h"
+#include "main/image_header.h"
+#include "main/messages.h"
+#include "main/output_files.h"
+#include "main/progress.h"
+#include "main/warnings.h"
+#include "scene/param_text.h"
+
+namespace pbrtmedia {
+namespace {
+
+/// A world that is ready, and what its image's header tells of it.
+struct BuiltWorld {
+  Construction scene;
+  SceneIdentity identity;
+};
+
+/// Nothing when there are errors, which are shown.
+std::optional<BuiltWorld> build(SceneDescription& description, const Run& run) {
+  const Options& options = run.options;
+  Diagnostics diagnostics;
+  diagnostics.strict = options.strict;
+  const ConstructOptions build{
+      .outfile = options.outfile,
+      .cropWindow = options.cropWindow,
+      .quick = options.quick,
+      .samplesPerPixel = options.samplesPerPixel,
+      .seed = options.seed,
+      .mediumParams = parseParams(options.mediumParams, "--mediumparams", diagnostics)};
+  if (diagnostics.hasErrors()) {
+    show(diagnostics, options.quiet);
+    return std::nullopt;
+  }
+  SceneIdentity identity;
+  run.watching.enter("building");
+  std::optional<Construction> scene = [&] {
+    const PhaseLine line(options.progress, options.quiet, "building " + sceneNames(options));
+    identity = identify(description, options.mediumParams, build.mediumParams);
+    return construct(description, build, diagnostics);
+  }();
+  show(diagnostics, options.quiet);
+  run.watching.add(diagnostics);
+  if (!scene) return std::nullopt;
+  description = {};  // what was not taken is not needed any more
+  if (options.verbose) {
+    for (const std::string& line : scene->report) std::cerr << "  " << line << '\n';
+  }
+  return BuiltWorld{std::move(*scene), std::move(identity)};
+}
+
+/// Writes what was rendered, a PNG beside it if that is wanted, and says where the files are: "wrote a.exr".
+/// Sets `status` when an image is not where it should be.
+std::string writeRendered(const std::filesystem::path& outfile, const Image& image, const Options& options,
+                          int& status) {
+  std::vector<std::filesystem::path> wanted = {outfile};
+  if (options.png && outfile.extension() != ".png") {
+    wanted.push_back(outfile);
+    wanted.back().replace_extension(".png");
+  }
+  std::string written;
+  for (const std::filesystem::path& file : wanted) {
+    const SavedImage saved = saveImage(file, image, options.write);
+    if (!saved.problem.empty()) {
+      std::cerr << "pbrt: error: " << saved.problem << "; the image is in \"" << saved.file.string()
+                << "\" instead\n";
+      status = kExitBadInput;
+    }
+    written += (written.empty() ? "" : " and ") + saved.file.string();
+  }
+  if (!options.quiet) std::cerr << "wrote " << written << '\n';
+  return "wrote " + written;
+}
+
+void fillIn(RenderStatistics& statistics, const RenderedImage& rendered) {
+  const RenderResult& result = rendered.result;
+  statistics.render = {result.seconds, result.cpuSeconds};
+  statistics.measure = rendered.measuring;
+  statistics.samplesTaken = static_cast<std::int64_t>(result.samplesTaken);
+  statistics.samplesPlanned = static_cast<std::int64_t>(result.samplesTotal);
+  statistics.interrupted = result.interrupted;
+  statistics.stoppedBy = rendered.stoppedBy;
+  statistics.counters = result.counters;
+  statistics.learning = result.learning;
+}
+
+/// What people should know of the image.
+void tell(const RenderResult& result, const RenderStatistics& statistics, const Run& run,
+          const Scene& scene) {
+  const bool quiet = run.options.quiet;
+  if (!quiet) std::cerr << describeStop(result);
+  const std::string faults = describeFaults(result, run.options, &scene);
+  std::cerr << faults;
+  run.watching.warn(faults);
+  if (quiet) return;
+  std::cerr << describeRisingBounds(result.learning) << describeComplaints(scene)
+            << formatStatistics(statistics);
+}
+
+int strictStatus(const RenderResult& result) {
+  const bool isFaulty = result.counters.droppedTotal() > 0 || result.counters.boundViolations > 0;
+  if (isFaulty) return kExitStrict;
+  return result.interrupted ? kExitEarly : 0;
+}
+
+}  // namespace
+
+std::string sceneNames(const Options& options) {
+  std::string names;
+  for (const auto& scene : options.scenes) {
+    if (!names.empty()) names += ' ';
+    names += scene.string();
+  }
+  return names;
+}
+
+std::optional<RenderStatistics> renderWorld(SceneDescription& description, const std::string& name,
+                                            const Run& run, const PhaseTime& parseTime, int& status) {
+  const Options& options = run.options;
+  RenderStatistics statistics;
+  statistics.scene = sceneNames(options);
+  statistics.seed = options.seed;
+  statistics.threads = threadCount();
+  statistics.parse = parseTime;
+
+  const Stopwatch constructing;
+  const std::optional<BuiltWorld> world = build(description, run);
+  if (!world) {
+    status = kExitBadInput;
+    return std::nullopt;
+  }
+  const Construction& scene = world->scene;
+  statistics.construct = constructing.elapsed();
+  statistics.outfile = scene.outfile.string();
+  statistics.samplesPerPixel = scene.sampler->samplesPerPixel();
+  const std::string boundsWarnings = run.bounds.restore(name, *scene.scene);
+  if (!options.quiet) std::cerr << boundsWarnings;
+
+  StopSignal::say(kImageSoFar);
+  run.watching.begin(statistics.outfile, statistics.samplesPerPixel);
+  const RenderedImage rendered = renderImage(scene, options, run.ending, run.watching);
+  fillIn(statistics, rendered);
+  const RenderResult& result = rendered.result;
+  if (result.samplesTaken == 0 && result.interrupted) leaveIfStopped();  // black would be a wrong image
+  const Stopwatch writing;
+  run.watching.enter("writing");
+  const Image image = withHeader(scene.film->develop(), statistics, options, world->identity);
+  const std::string written = writeRendered(scene.outfile, image, options, status);
+  run.bounds.save(name, *scene.scene);
+  statistics.write = writing.elapsed();
+  statistics.peakMemory = peakMemoryBytes();
+  tell(result, statistics, run, *scene.scene);
+  run.watching.finish(image, result, written);
+  if (options.strict && status == 0) status = strictStatus(result);
+  return statistics;
+}
+
+}  // namespace pbrtmedia
