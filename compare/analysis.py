@@ -18,6 +18,8 @@ from .slope import slope_estimate
 
 AXES = ("cpu", "wall", "lookups", "samples")
 """What an error can be drawn over: seconds of all threads, of the clock on the wall, density look-ups, samples a pixel."""
+HEAVY_TAIL = 0.5
+"""From this share of one pair of slices in all variance on, the variance is a matter of luck."""
 MOST_BIAS_Z = 5.0
 """A bias is told from chance when it is so many standard errors (as all statistical tests of this project)."""
 
@@ -80,6 +82,18 @@ class SceneResult:
     results: list[SettingResult]
     failures: dict[str, str]
     window: tuple[int, int, int, int] = (0, 0, 1, 1)  # left, top corner in the whole image, and the size of that
+    reference_tail: float = 0                         # share of the noisiest pair of its slices in all its variance
+
+    def reference_warning(self) -> str:
+        """What makes the reference a bad one; "" if nothing does."""
+        if self.reference.variance is None:
+            return ""
+        if self.reference_tail > HEAVY_TAIL:
+            return (f"The reference has a heavy tail: one pair of its slices has {100 * self.reference_tail:.0f} % of its variance. "
+                    "Nothing here is to be trusted: let another setting make it.")
+        if self.reference.noise() > 0.1 * min((r.curve[-1].errors["mse"].value for r in self.results), default=math.inf):
+            return "The noise of the reference is more than a tenth of the smallest error: a longer one would tell more."
+        return ""
 
     def axis_known(self, axis: str) -> bool:
         """Whether any setting can be drawn over the axis."""
@@ -209,7 +223,12 @@ class SceneAnalysis:
                 result.ratios[axis] = log_ratio(result.works[axis], fair[best].works[axis])
         axis = self.budget_axis()
         results.sort(key=lambda r: (r.biased(), r.works[axis].value() if axis in r.works else math.inf))
-        return SceneResult(self.name, self.reference, self.source, results, failures, self.window(results))
+        return SceneResult(self.name, self.reference, self.source, results, failures, self.window(results), self.reference_tail())
+
+    def reference_tail(self) -> float:
+        """0 for fewer than three pairs."""
+        pairs = [float(((a.astype(np.float64) - b)**2).mean()) for a, b in zip(self.references[::2], self.references[1::2])]
+        return max(pairs) / sum(pairs) if len(pairs) > 2 and sum(pairs) > 0 else 0.0
 
     def window(self, results: list[SettingResult]) -> tuple[int, int, int, int]:
         """Where the pixels are in the whole image, as the header of an EXR file tells."""

@@ -3,15 +3,12 @@
 import html
 import math
 
-from .analysis import MOST_BIAS_Z, SceneResult, SettingResult
+from .analysis import HEAVY_TAIL, MOST_BIAS_Z, SceneResult, SettingResult
 from .case import Case
 from .intervals import Estimate, student_quantile
 from .maps import WorstPixel
 from .plots import style
 from .replay import replay
-
-HEAVY_TAIL = 0.5
-"""From this share of one pair of slices in all variance on, the variance is called a matter of luck."""
 
 
 def cell(text: str, value: float | None, title: str = "", kind: str = "") -> str:

@@ -5,6 +5,7 @@ import math
 from pathlib import Path
 
 import matplotlib
+from PIL import Image
 
 matplotlib.use("Agg")
 # Text stays text, and the same curves give the same file.
@@ -80,6 +81,19 @@ def plain_ticks(line: Axis, low: float, high: float) -> None:
     line.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value, len(factors) == 1)))
 
 
+def cut_off_outliers(axes: Axes, scene: SceneResult, axis: str, metric: str) -> None:
+    """Ends the plot a factor of 100 above nine tenths of the points: one firefly must not flatten all other curves."""
+    found = [error_of(p, axis, metric).value for r in scene.results for p in r.curve if (p.costs[axis] or 0) > 0]
+    values = sorted(v for v in found if v > 0)
+    if not values:
+        return
+    top = 100 * values[int(0.9 * (len(values) - 1))]
+    if values[-1] > top:
+        axes.set_ylim(top=top)
+        axes.annotate(f"points up to {tick_text(values[-1], True)} are cut off", (0.995, 0.985), xycoords="axes fraction", ha="right", va="top",
+                      fontsize=7.5, color="#b3261e")
+
+
 def draw_guides(axes: Axes, metric: str) -> None:
     """Lines of slope -1 (-1/2 for errors that are no squares) behind the curves."""
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
@@ -99,9 +113,11 @@ def error_figure(scene: SceneResult, order: dict[str, int], axis: str, metric: s
     axes.set_yscale("log")
     for result in scene.results:
         draw_setting(axes, result, axis, metric, order[result.name])
+    cut_off_outliers(axes, scene, axis, metric)
     noise = scene.reference.noise()
     if metric == "mse" and noise > 0:
         if axes.get_ylim()[0] / 3 < noise:
+            axes.set_ylim(bottom=min(axes.get_ylim()[0], noise / 1.5))
             axes.axhline(noise, color="#888888", linewidth=0.9, linestyle=(0, (1, 3)))
             axes.annotate("noise of the reference (taken out)", (0.995, noise), xycoords=("axes fraction", "data"), ha="right", va="bottom",
                           fontsize=7.5, color="#777777")
@@ -146,4 +162,8 @@ def svg_of(figure: Figure) -> str:
 
 
 def save_png(figure: Figure, path: Path) -> None:
-    figure.savefig(path, dpi=130, metadata={"Software": None})
+    """With a palette: a third of the size, for pages that keep many."""
+    out = io.BytesIO()
+    figure.savefig(out, format="png", dpi=130)
+    with Image.open(out) as picture:
+        picture.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)

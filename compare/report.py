@@ -118,11 +118,9 @@ def reference_words(scene: SceneResult) -> str:
     text = f"Reference: {html.escape(scene.reference_source)}. "
     if reference.variance is None:
         return text + "Its noise is not known: errors and biases include it. "
-    best = min((r.curve[-1].errors["mse"].value for r in scene.results), default=math.inf)
+    warning = scene.reference_warning()
     text += f"Its own noise, a mean squared error of {reference.noise():.3g}, is taken out of squared errors. "
-    if reference.noise() > 0.1 * best:
-        text += '<b class="bad">That is more than a tenth of the smallest error here: a longer reference would tell more.</b> '
-    return text
+    return text + (f'<b class="bad">{html.escape(warning)}</b> ' if warning else "")
 
 
 def scene_section(out: Path, case: Case, scene: SceneResult, where: list[dict], number: int) -> str:

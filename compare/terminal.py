@@ -42,4 +42,5 @@ def terminal_table(case: Case, scene: SceneResult) -> str:
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     lines = ["  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows]
     failures = [f"{name}: left out: {text.splitlines()[-1]}" for name, text in scene.failures.items()]
-    return "\n".join([f"\n{scene.name}", *lines, *failures])
+    warning = scene.reference_warning()
+    return "\n".join([f"\n{scene.name}", *lines, *failures, *([warning] if warning else [])])

@@ -221,6 +221,20 @@ class Judgement(WithRenderers):
         self.assertIn("1 best", lines[3])
         self.assertIn("BIASED", lines[5])
 
+    def test_a_reference_that_is_a_matter_of_luck_is_told(self):
+        entries = self.entries(self.fake("a"))
+        self.schedule().compare(entries)
+        rng = np.random.default_rng(1)
+        references = [(TRUTH + 0.02 * rng.normal(size=TRUTH.shape)).astype(np.float32) for _ in range(8)]
+        tool = FakeTool(Path("."))
+        self.assertEqual(SceneAnalysis(self.case, "s", tool, references, "r").run(entries).reference_warning(), "")
+        noisy = [(r + rng.normal(size=TRUTH.shape)).astype(np.float32) for r in references]
+        self.assertIn("more than a tenth", SceneAnalysis(self.case, "s", tool, noisy, "r").run(entries).reference_warning())
+        references[3][5, 5] = -1e6
+        result = SceneAnalysis(self.case, "s", tool, references, "r").run(entries)
+        self.assertIn("heavy tail", result.reference_warning())
+        self.assertIn("heavy tail", terminal_table(self.case, result))
+
     def test_equal_renderers_tie(self):
         result = self.judged(self.fake("a"), self.fake("b"))
         self.assertEqual([r.tied["cpu"] for r in result.results], [True, True])
