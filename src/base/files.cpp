@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -18,6 +20,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "base/diagnostics.h"
 #include "base/interruption.h"
@@ -245,6 +248,32 @@ void FileBytes::releaseUpTo(std::size_t count) const {
   if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
 }
 
+namespace {
+
+/// Temporary names are this, the number of the process, "-", a counter and the extension.
+std::string partPrefix(const std::filesystem::path& target) { return '.' + target.stem().string() + ".part"; }
+
+}  // namespace
+
+void removeLeftParts(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
+  const fs::path folder = target.parent_path().empty() ? fs::path(".") : target.parent_path();
+  const std::string prefix = partPrefix(target);
+  std::vector<fs::path> left;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(prefix) || entry->path().extension() != target.extension()) continue;
+    pid_t process = 0;
+    const char* const first = name.data() + prefix.size();
+    const auto [last, problem] = std::from_chars(first, name.data() + name.size(), process);
+    if (problem != std::errc() || *last != '-' || process <= 0) continue;
+    if (::kill(process, 0) != 0 && errno == ESRCH) left.push_back(entry->path());
+  }
+  for (const fs::path& file : left) fs::remove(file, error);
+}
+
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path& temporary)>& write) {
   namespace fs = std::filesystem;
@@ -264,8 +293,7 @@ void writeFileAtomically(const std::filesystem::path& path,
   if (!fs::is_directory(folder, error)) throw failed("there is no folder ", folder.string());
 
   static std::atomic<unsigned> counter{0};
-  std::string name = ".";
-  name.append(target.stem().string()).append(".part").append(std::to_string(::getpid()));
+  std::string name = partPrefix(target) + std::to_string(::getpid());
   name.append("-").append(std::to_string(counter++));
   name.append(target.extension().string());  // stays: writers choose the format by it
   const fs::path temporary = folder / name;

@@ -58,5 +58,7 @@ class FileBytes {
 /// it was. Throws std::runtime_error naming the path and the system's reason.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path& temporary)>& write);
+/// Removes what killed processes of this machine left beside `path` when they were writing it.
+void removeLeftParts(const std::filesystem::path& path);
 
 }  // namespace pbrtmedia

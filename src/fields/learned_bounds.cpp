@@ -122,6 +122,8 @@ bool LearnedBounds::restore(const std::vector<float>& saved) {
 
 LearnedBounds::State LearnedBounds::state() const {
   State state;
+  for (std::vector<float>* numbers : {&state.upper, &state.lower, &state.most, &state.least})
+    numbers->reserve(inForce_.cellCount());
   visitCells([&](std::size_t cell) {
     state.upper.push_back(inForce_.upperOf(cell));
     state.lower.push_back(inForce_.lowerOf(cell));
@@ -135,8 +137,15 @@ LearnedBounds::State LearnedBounds::state() const {
 
 bool LearnedBounds::fits(const State& state) const {
   const std::size_t cells = inForce_.cellCount();
-  return state.upper.size() == cells && state.lower.size() == cells && state.most.size() == cells &&
-         state.least.size() == cells;
+  if (state.upper.size() != cells || state.lower.size() != cells || state.most.size() != cells ||
+      state.least.size() != cells)
+    return false;
+  const auto isBound = [](float x) { return x > 0 && std::isfinite(x); };
+  return std::all_of(state.upper.begin(), state.upper.end(), isBound) &&
+         std::all_of(state.most.begin(), state.most.end(), isBound) &&
+         std::all_of(state.lower.begin(), state.lower.end(),
+                     [](float x) { return x >= 0 && std::isfinite(x); }) &&
+         std::all_of(state.least.begin(), state.least.end(), [](float x) { return x >= 0; });
 }
 
 void LearnedBounds::restore(const State& state) {

@@ -104,7 +104,7 @@ class LearnedBounds {
 
   /// To go on elsewhere as if nothing had happened, after a publication. Not thread-safe.
   State state() const;
-  /// Whether a state has as many cells.
+  /// Whether a state has as many cells, and numbers in them that bounds can be.
   bool fits(const State& state) const;
   /// A state that fits. Not thread-safe.
   void restore(const State& state);

@@ -53,6 +53,7 @@ Image withHeader(Image image, const RenderStatistics& statistics, const Options&
   image.metadata["seed"] = std::to_string(options.seed);
   image.metadata["samples"] = samplesPerPixelText(statistics);
   image.metadata["seconds"] = seconds.str();
+  if (statistics.parts.size() > 1) image.metadata["parts"] = formatParts(statistics.parts);
   if (!statistics.stoppedBy.empty()) image.metadata["stoppedBy"] = statistics.stoppedBy;
   addIdentity(image, identity);
   const std::string bounds = boundsState(statistics.learning);

@@ -54,6 +54,7 @@ class OptionList {
     addSampling();
     addMedia();
     addFiles();
+    addCheckpoints();
     addChecks();
     addReports();
     addWatching();
@@ -68,6 +69,7 @@ class OptionList {
   void addSampling();
   void addMedia();
   void addFiles();
+  void addCheckpoints();
   void addChecks();
   void addReports();
   void addWatching();
@@ -87,7 +89,8 @@ class OptionList {
   Options options_;
   std::vector<std::string> scenes_;
   std::vector<float> crop_;
-  std::string outfile_, stats_, boundsCache_, convergence_, reference_, displayServer_, serve_;
+  std::string outfile_, stats_, boundsCache_, checkpoint_, resume_, convergence_, reference_, displayServer_,
+      serve_;
   std::string progress_ = "auto", logDirectory_;
   int minLogLevel_ = 0, verbosity_ = 0;
   bool logToStderr_ = false;
@@ -168,6 +171,27 @@ void OptionList::addFiles() {
   app_.add_option("--compression", options_.write.compression, "of EXR files: zip (default), piz or none")
       ->transform(oneOf(compressions))
       ->type_name("NAME")
+      ->group(kRendering);
+}
+
+void OptionList::addCheckpoints() {
+  CLI::Option* const checkpoint =
+      app_.add_option("--checkpoint", checkpoint_,
+                      "now and then, and when the render is stopped, write all that --resume needs to go on")
+          ->type_name("FILE")
+          ->group(kRendering);
+  app_.add_option("--checkpoint-interval", options_.checkpointInterval,
+                  "seconds between checkpoints (default 10); more where writing one takes longer than 2 % of "
+                  "that")
+      ->needs(checkpoint)
+      ->check(number(NumberRange::above(0)))
+      ->type_name("SECONDS")
+      ->group(kRendering);
+  app_.add_option(
+          "--resume", resume_,
+          "go on from a checkpoint of the same scene and options, to the same image; with --checkpoint "
+          "of the same name it need not exist yet")
+      ->type_name("FILE")
       ->group(kRendering);
 }
 
@@ -278,6 +302,8 @@ OptionsOutcome OptionList::read(const std::vector<std::string>& words) {
   if (!displayServer_.empty()) options_.displayServer = parseViewer(displayServer_);
   if (!serve_.empty()) options_.serve = parseServedOrAnywhere(serve_);
   options_.isServePortFixed = serve_ != kAnywhere;
+  if (!checkpoint_.empty()) options_.checkpoint = checkpoint_;
+  if (!resume_.empty()) options_.resume = resume_;
   if (!crop_.empty()) {
     std::array<float, 4> window{};
     std::copy(crop_.begin(), crop_.end(), window.begin());

@@ -34,6 +34,8 @@ struct Options {
   std::optional<std::filesystem::path> statsFile;
   ProgressMode progress = ProgressMode::Auto;
   std::optional<std::filesystem::path> boundsCache;
+  std::optional<std::filesystem::path> checkpoint, resume;
+  double checkpointInterval = 10;   ///< seconds
   std::string mediumParams;         ///< parameter list for the media with a density field; "": none
   std::optional<double> timeLimit;  ///< seconds since the start
   std::optional<double> mostError;  ///< relative: stop when the image is as good

@@ -61,6 +61,8 @@ int runPbrt(const Options& options) {
   if (options.reference)
     readImage(*options.reference);  // whether it is an image is told before hours of work
   if (options.boundsCache) requireWritable("--bounds-cache", *options.boundsCache);
+  if (options.checkpoint) requireWritable("--checkpoint", *options.checkpoint);
+  Checkpoints checkpoints(options);
   const ThreadLimit threads(options.threads);
   const StopSignal stop({.notice = kNothingYet,
                          .timeLimit = options.timeLimit.value_or(StopSignal::kNever),
@@ -93,24 +95,30 @@ int runPbrt(const Options& options) {
   if (diagnostics.hasErrors()) return kExitBadInput;
 
   KeptBounds bounds(options.boundsCache);
-  const Run run{options, ending, watching, bounds};
+  const Run run{options, ending, watching, bounds, checkpoints};
   int status = 0;
   std::vector<RenderStatistics> all;
-  for (SceneDescription& world : worlds) {
+  const std::size_t first = checkpoints.firstWorld(worlds.size());
+  if (first > 0 && !options.quiet)
+    std::cerr << "pbrt: note: going on with world " << first + 1
+              << "; the images of those before are written\n";
+  for (std::size_t number = first; number < worlds.size(); ++number) {
     StopSignal::say(kNothingYet);
     try {
-      const std::optional<RenderStatistics> one = renderWorld(world, worldName(options, all.size()), run,
-                                                              all.empty() ? parseTime : PhaseTime{}, status);
+      const std::optional<RenderStatistics> one =
+          renderWorld(worlds[number], {number, worldName(options, number)}, run,
+                      all.empty() ? parseTime : PhaseTime{}, status);
       if (!one) return status;
       all.push_back(*one);
+      checkpoints.leave(statisticsText(*one));
     } catch (const Interrupted& stopped) {
-      const std::string which = worlds.size() > 1 ? " of world " + std::to_string(all.size() + 1) : "";
+      const std::string which = worlds.size() > 1 ? " of world " + std::to_string(number + 1) : "";
       status = reportNoImage(stopped, options, ending, "before the first sample" + which);
       break;
     }
     if (all.back().interrupted && stop) break;
   }
-  if (options.statsFile && !all.empty()) writeStatistics(*options.statsFile, all);
+  if (options.statsFile && !all.empty()) writeStatistics(*options.statsFile, checkpoints.worldsDone());
   return status;
 }
 

@@ -20,8 +20,6 @@ class Measuring {
     Film& film = *scene.film;
     const Bounds2i pixels =
         scene.pixelBounds ? intersect(film.pixelBounds(), *scene.pixelBounds) : film.pixelBounds();
-    const bool needsHalves = options.mostError || (options.convergence && !options.reference);
-    if (needsHalves) film.keepHalves();
     if (options.mostError) target_.emplace(*options.mostError, film, pixels);
     if (!options.convergence) return;
     ConvergenceLog::Params log{
@@ -72,8 +70,12 @@ std::string nameOf(EarlyStop stop, bool isGoodEnough) {
 
 }  // namespace
 
+bool needsHalves(const Options& options) {
+  return options.mostError || (options.convergence && !options.reference);
+}
+
 RenderedImage renderImage(const Construction& scene, const Options& options, const Ending& ending,
-                          Watching& watching) {
+                          Watching& watching, Checkpoints& checkpoints) {
   RenderOptions loop;
   loop.seed = options.seed;
   loop.tileSize = options.tileSize;
@@ -95,6 +97,7 @@ RenderedImage renderImage(const Construction& scene, const Options& options, con
                 std::max(0.0, timeLeft));
     watching.update(p, std::max(0.0, timeLeft));
   };
+  checkpoints.attach(scene, loop);
   RenderedImage rendered;
   rendered.result = scene.integrator->render(*scene.camera, *scene.sampler, *scene.film, loop);
   line.finish(static_cast<std::int64_t>(rendered.result.samplesTaken),

@@ -6,6 +6,7 @@
 #include "base/stop_signal.h"
 #include "base/stopwatch.h"
 #include "construct/construct.h"
+#include "main/checkpoints.h"
 #include "main/options.h"
 #include "main/watching.h"
 #include "render/render_result.h"
@@ -24,9 +25,12 @@ struct RenderedImage {
   std::string stoppedBy;  ///< "time", "signal", "lookups" or "error"; "": not stopped early
 };
 
-/// Takes the samples of a scene, with a progress line, and with what measures the image on its way. Throws
-/// SceneError for a reference that is none.
+/// Whether the film must keep its halves (Film::keepHalves) for what the options ask.
+bool needsHalves(const Options& options);
+
+/// Takes the samples of a scene, from where `checkpoints` has it, with a progress line, and with what
+/// measures the image on its way. Throws SceneError for a reference that is none.
 RenderedImage renderImage(const Construction& scene, const Options& options, const Ending& ending,
-                          Watching& watching);
+                          Watching& watching, Checkpoints& checkpoints);
 
 }  // namespace pbrtmedia

@@ -121,8 +121,8 @@ std::string sceneNames(const Options& options) {
   return names;
 }
 
-std::optional<RenderStatistics> renderWorld(SceneDescription& description, const std::string& name,
-                                            const Run& run, const PhaseTime& parseTime, int& status) {
+std::optional<RenderStatistics> renderWorld(SceneDescription& description, const WorldId& id, const Run& run,
+                                            const PhaseTime& parseTime, int& status) {
   const Options& options = run.options;
   RenderStatistics statistics;
   statistics.scene = sceneNames(options);
@@ -140,20 +140,26 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   statistics.construct = constructing.elapsed();
   statistics.outfile = scene.outfile.string();
   statistics.samplesPerPixel = scene.sampler->samplesPerPixel();
-  const std::string boundsWarnings = run.bounds.restore(name, *scene.scene);
-  if (!options.quiet) std::cerr << boundsWarnings;
+  if (needsHalves(options)) scene.film->keepHalves();
+  run.checkpoints.enter(id.number, world->identity, scene);
+  if (!run.checkpoints.resumes()) {  // which brings its bounds along
+    const std::string boundsWarnings = run.bounds.restore(id.name, *scene.scene);
+    if (!options.quiet) std::cerr << boundsWarnings;
+  }
 
   StopSignal::say(kImageSoFar);
   run.watching.begin(statistics.outfile, statistics.samplesPerPixel);
-  const RenderedImage rendered = renderImage(scene, options, run.ending, run.watching);
+  const RenderedImage rendered = renderImage(scene, options, run.ending, run.watching, run.checkpoints);
   fillIn(statistics, rendered);
   const RenderResult& result = rendered.result;
   if (result.samplesTaken == 0 && result.interrupted) leaveIfStopped();  // black would be a wrong image
   const Stopwatch writing;
   run.watching.enter("writing");
+  if (!run.checkpoints.finish(scene, result)) status = kExitBadInput;
+  statistics.parts = run.checkpoints.parts();
   const Image image = withHeader(scene.film->develop(), statistics, options, world->identity);
   const std::string written = writeRendered(scene.outfile, image, options, status);
-  run.bounds.save(name, *scene.scene);
+  run.bounds.save(id.name, *scene.scene);
   statistics.write = writing.elapsed();
   statistics.peakMemory = peakMemoryBytes();
   tell(result, statistics, run, *scene.scene);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
 #include "base/stopwatch.h"
+#include "main/checkpoints.h"
 #include "main/kept_bounds.h"
 #include "main/options.h"
 #include "main/render_image.h"
@@ -28,13 +30,20 @@ struct Run {
   const Ending& ending;
   Watching& watching;
   KeptBounds& bounds;
+  Checkpoints& checkpoints;
 };
 
-/// One world: built, rendered, written; told about on standard error. Takes its arrays. `name`: what a cache
-/// of bounds calls it. Sets `status` where it is not 0, and answers the numbers; nothing for a world that
-/// cannot be built. Throws Interrupted when it is to stop before the first sample.
-std::optional<RenderStatistics> renderWorld(SceneDescription& description, const std::string& name,
-                                            const Run& run, const PhaseTime& parseTime, int& status);
+/// Which of them it is.
+struct WorldId {
+  std::size_t number = 0;  ///< from 0
+  std::string name;        ///< what a cache of bounds calls it
+};
+
+/// One world: built, rendered, written; told about on standard error. Takes its arrays. Sets `status` where
+/// it is not 0, and answers the numbers; nothing for a world that cannot be built. Throws Interrupted when it
+/// is to stop before the first sample.
+std::optional<RenderStatistics> renderWorld(SceneDescription& description, const WorldId& id, const Run& run,
+                                            const PhaseTime& parseTime, int& status);
 
 /// File names of the command line, for people.
 std::string sceneNames(const Options& options);

@@ -70,6 +70,18 @@ nlohmann::ordered_json toJson(const std::vector<LearningRecord>& records) {
   return all;
 }
 
+nlohmann::ordered_json toJson(const std::vector<RenderPart>& parts) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const RenderPart& part : parts) {
+    all.push_back({{"firstSample", part.first},
+                   {"endSample", part.end},
+                   {"seconds", toJson(part.time)},
+                   {"threads", part.threads},
+                   {"version", part.version}});
+  }
+  return all;
+}
+
 nlohmann::ordered_json toJson(const RenderStatistics& s) {
   return {{"scene", s.scene},
           {"outfile", s.outfile},
@@ -86,6 +98,7 @@ nlohmann::ordered_json toJson(const RenderStatistics& s) {
             {"render", toJson(s.render)},
             {"measure", toJson(s.measure)},
             {"write", toJson(s.write)}}},
+          {"parts", toJson(s.parts)},
           {"counters", toJson(s.counters)},
           {"learnedBounds", toJson(s.learning)},
           {"peakMemoryBytes", s.peakMemory}};
@@ -108,6 +121,10 @@ std::string formatStatistics(const RenderStatistics& s) {
      << phase(s.render);
   if (s.measure.wall > 0) os << ", measure " << phase(s.measure);
   os << ", write " << phase(s.write) << '\n';
+  if (s.parts.size() > 1) {
+    std::istringstream parts(formatParts(s.parts));
+    for (std::string line; std::getline(parts, line);) os << "  part      " << line << '\n';
+  }
   if (s.samplesTaken > 0) {
     os << "  samples   " << formatCount(static_cast<double>(s.samplesTaken)) << ", "
        << 1e6 * s.render.cpu / static_cast<double>(s.samplesTaken) << " us of CPU each\n";
@@ -138,12 +155,29 @@ std::string formatStatistics(const RenderStatistics& s) {
   return os.str();
 }
 
-void writeStatistics(const std::filesystem::path& path, const std::vector<RenderStatistics>& renders) {
+std::string formatParts(const std::vector<RenderPart>& parts) {
+  std::ostringstream text;
+  for (const RenderPart& part : parts) {
+    text << "samples " << part.first << " to " << part.end << " of each pixel in "
+         << formatDuration(part.time.wall) << " (cpu " << formatDuration(part.time.cpu) << ", "
+         << part.threads << (part.threads == 1 ? " thread)" : " threads)") << '\n';
+  }
+  return text.str();
+}
+
+std::string statisticsText(const RenderStatistics& statistics) {
+  // Names of files may be no text at all.
+  return toJson(statistics).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+void writeStatistics(const std::filesystem::path& path, const std::vector<std::string>& renders) {
   nlohmann::ordered_json root = {{"version", buildText()}, {"renders", nlohmann::ordered_json::array()}};
-  for (const RenderStatistics& s : renders) root["renders"].push_back(toJson(s));
+  for (const std::string& text : renders) {
+    auto one = nlohmann::ordered_json::parse(text, nullptr, /*allow_exceptions=*/false);
+    if (!one.is_discarded()) root["renders"].push_back(std::move(one));
+  }
   writeFileAtomically(path, [&](const std::filesystem::path& temporary) {
     std::ofstream out(temporary);
-    // Names of files may be no text at all.
     out << root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
     out.close();
     if (!out) throw std::runtime_error("cannot write " + temporary.string());

@@ -8,6 +8,7 @@
 
 #include "base/statistics.h"
 #include "base/stopwatch.h"
+#include "main/checkpoint_file.h"
 #include "render/render_result.h"
 
 namespace pbrtmedia {
@@ -22,8 +23,9 @@ struct RenderStatistics {
   std::int64_t samplesPlanned = 0;
   unsigned threads = 0;
   bool interrupted = false;
-  std::string stoppedBy;  ///< RenderedImage::stoppedBy
-  PhaseTime parse, construct, render, measure, write;
+  std::string stoppedBy;                               ///< RenderedImage::stoppedBy
+  PhaseTime parse, construct, render, measure, write;  ///< `render`: of all parts
+  std::vector<RenderPart> parts;                       ///< one for each process that rendered some of it
   RenderCounters counters;
   std::vector<LearningRecord> learning;  ///< of media with progressive bounds
   std::size_t peakMemory = 0;            ///< bytes
@@ -31,7 +33,11 @@ struct RenderStatistics {
 
 /// The numbers as text for people: a few lines, most telling first.
 std::string formatStatistics(const RenderStatistics& statistics);
-/// Writes {"version": …, "renders": [ … ]} atomically; keys in docs/statistics.md.
-void writeStatistics(const std::filesystem::path& path, const std::vector<RenderStatistics>& renders);
+/// "samples 0 to 12 in 3.2s (cpu 6.1s, 2 threads)", a line each.
+std::string formatParts(const std::vector<RenderPart>& parts);
+/// The numbers as a JSON object; keys in docs/statistics.md.
+std::string statisticsText(const RenderStatistics& statistics);
+/// Writes {"version": …, "renders": [ … ]} of such objects atomically.
+void writeStatistics(const std::filesystem::path& path, const std::vector<std::string>& renders);
 
 }  // namespace pbrtmedia

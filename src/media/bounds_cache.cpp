@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "media/bounds_cache.h"
 
-#include <bit>
-#include <concepts>
 #include <fstream>
-#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "base/byte_stream.h"
 #include "base/diagnostics.h"
 #include "base/files.h"
 #include "base/hash.h"
@@ -18,51 +16,6 @@ namespace pbrtmedia {
 namespace {
 
 constexpr std::string_view kMagic = "pbrt-media bounds ", kVersion = "1\n";
-
-class Writer {
- public:
-  template <std::unsigned_integral T>
-  void add(T number) {
-    for (std::size_t i = 0; i < sizeof(T); ++i) text_ += static_cast<char>(number >> (8 * i) & 0xff);
-  }
-  void add(float number) { add(std::bit_cast<std::uint32_t>(number)); }
-  void add(const std::string& name) {
-    add(static_cast<std::uint32_t>(name.size()));
-    text_ += name;
-  }
-  void addPlain(std::string_view text) { text_ += text; }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
-class Reader {
- public:
-  explicit Reader(std::string_view text) : rest_(text) {}
-
-  template <std::unsigned_integral T>
-  T number() {
-    const std::string_view bytes = take(sizeof(T));
-    T value = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i)
-      value = static_cast<T>(value |
-                             static_cast<T>(static_cast<T>(static_cast<unsigned char>(bytes[i])) << (8 * i)));
-    return value;
-  }
-  float real() { return std::bit_cast<float>(number<std::uint32_t>()); }
-  std::string name() { return std::string(take(number<std::uint32_t>())); }
-  std::string_view take(std::uint64_t count) {
-    if (count > rest_.size()) throw std::length_error("truncated");
-    const std::string_view bytes = rest_.substr(0, static_cast<std::size_t>(count));
-    rest_.remove_prefix(bytes.size());
-    return bytes;
-  }
-  std::size_t left() const { return rest_.size(); }
-
- private:
-  std::string_view rest_;
-};
 
 std::array<std::uint64_t, 3> cellsOf(const LearnedBounds& bounds) {
   const auto& n = bounds.inForce().shape().count;
@@ -97,15 +50,15 @@ BoundsCache BoundsCache::read(const std::filesystem::path& path) {
   try {
     if (text.size() < kMagic.size() + kVersion.size() + kHashBytes) throw std::length_error("truncated");
     const std::string_view content = text.substr(0, text.size() - kHashBytes);
-    if (Reader(text.substr(content.size())).number<std::uint64_t>() != hashBytes(content))
+    if (ByteReader(text.substr(content.size())).number<std::uint64_t>() != hashBytes(content))
       refuse("the file is truncated or corrupt");
-    Reader in(content.substr(kMagic.size() + kVersion.size()));
+    ByteReader in(content.substr(kMagic.size() + kVersion.size()));
     for (auto left = in.number<std::uint64_t>(); left > 0; --left) {
-      std::string scene = in.name(), medium = in.name();
+      std::string scene = in.text(), medium = in.text();
       Entry entry;
       for (std::uint64_t& n : entry.cells) n = in.number<std::uint64_t>();
-      entry.epsilon = in.real();
-      entry.slack = in.real();
+      entry.epsilon = in.number<float>();
+      entry.slack = in.number<float>();
       // Each count alone is below the bytes left, so three of them overflow no 128 bits; divide instead.
       std::uint64_t cells = 1, most = in.left() / (2 * sizeof(float));
       for (const std::uint64_t n : entry.cells) {
@@ -113,7 +66,7 @@ BoundsCache BoundsCache::read(const std::filesystem::path& path) {
         cells *= n;
       }
       entry.bounds.reserve(static_cast<std::size_t>(2 * cells));
-      for (std::uint64_t i = 0; i < 2 * cells; ++i) entry.bounds.push_back(in.real());
+      for (std::uint64_t i = 0; i < 2 * cells; ++i) entry.bounds.push_back(in.number<float>());
       cache.entries_[{std::move(scene), std::move(medium)}] = std::move(entry);
     }
     if (in.left() > 0) throw std::length_error("bytes left over");
@@ -143,7 +96,7 @@ void BoundsCache::keep(const std::string& scene, Medium& medium) {
 }
 
 void BoundsCache::write(const std::filesystem::path& path) const {
-  Writer out;
+  ByteWriter out;
   out.addPlain(kMagic);
   out.addPlain(kVersion);
   out.add(static_cast<std::uint64_t>(entries_.size()));

@@ -14,12 +14,13 @@ constexpr double kProgressInterval = 0.1;  // seconds
 }  // namespace
 
 RenderResult PassLoop::resultAtStart(const RenderOptions& options, const Plan& plan) {
-  if (options.start) return options.start->result;
   RenderResult result;
+  if (options.start) result = options.start->result;
+  result.stoppedBy = EarlyStop::None;
   result.samplesTotal = plan.samplesPerIndex *
                         static_cast<std::uint64_t>(std::max<std::int64_t>(plan.end - options.firstSample, 0));
   result.pixelsTotal = plan.pixels;
-  result.completedSamplesPerPixel = options.firstSample;
+  if (!options.start) result.completedSamplesPerPixel = options.firstSample;
   return result;
 }
 
@@ -35,17 +36,23 @@ PassLoop::PassLoop(const Scene& scene, const RenderOptions& options, const Plan&
                 options),
       samplesDone_(result_.samplesTaken) {}
 
-RenderResult PassLoop::run(const RenderPass& renderPass) {
+RenderResult PassLoop::run(const TakeSamples& takeSamples, const AddToFilm& addToFilm) {
   if (result_.samplesTotal > 0) learning_.warmUp(options_.seed, [this] { return shouldStop(); });
   while (const std::optional<Pass> pass = schedule_.next(result_.counters.densityLookups)) {
-    const std::vector<UnitReport> units = renderPass(*pass);
+    const std::vector<UnitReport> units = takeSamples(*pass);
+    if (options_.beforePartialPass && !areComplete(units)) {
+      goesOn([&](const PassEnd& end) {
+        options_.beforePartialPass(end);
+        return false;
+      });
+    }
+    addToFilm(units);
     const std::uint64_t samplesBefore = result_.samplesTaken;
-    const bool complete =
-        addReports(units, pass->first == options_.firstSample, options_.maxRecords, result_);
+    addReports(units, pass->first == options_.firstSample, options_.maxRecords, result_);
     learning_.publish(result_.samplesTaken - samplesBefore);
-    if (!complete) break;
+    if (!areComplete(units)) break;
     result_.completedSamplesPerPixel = pass->first + pass->count;
-    if (!goesOn()) break;
+    if (options_.afterPass && !goesOn(options_.afterPass)) break;
   }
   if (plan_.samplesPerIndex == 0)
     result_.completedSamplesPerPixel = std::max(plan_.end, options_.firstSample);
@@ -58,11 +65,10 @@ RenderResult PassLoop::run(const RenderPass& renderPass) {
   return std::move(result_);
 }
 
-bool PassLoop::goesOn() {
-  if (!options_.afterPass) return true;
+bool PassLoop::goesOn(const std::function<bool(const PassEnd&)>& ask) {
   noteTime();
   const Stopwatch hook;
-  const bool answer = options_.afterPass({progress(), result_});
+  const bool answer = ask({progress(), result_});
   schedule_.leaveOut(hook.elapsed());
   return answer;
 }

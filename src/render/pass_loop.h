@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "render/bounds_learning.h"
@@ -26,14 +27,16 @@ class PassLoop {
     std::uint64_t pixels = 0;           ///< of which each is to get a sample
     std::int64_t mostPerPass = 1;       ///< sample indices that a pass may have
   };
-  /// Takes the samples of one pass, adds them to the film, and answers what each unit of work reports, in a
-  /// fixed order. Leaves soon when shouldStop() says so.
-  using RenderPass = std::function<std::vector<UnitReport>(const Pass&)>;
+  /// Takes the samples of one pass, and answers what each unit of work reports, in a fixed order. Leaves soon
+  /// when shouldStop() says so.
+  using TakeSamples = std::function<std::vector<UnitReport>(const Pass&)>;
+  /// Adds what was taken last to the film.
+  using AddToFilm = std::function<void(std::span<const UnitReport>)>;
 
   /// `scene` and `options` must outlive the object.
   PassLoop(const Scene& scene, const RenderOptions& options, const Plan& plan);
 
-  RenderResult run(const RenderPass& renderPass);
+  RenderResult run(const TakeSamples& takeSamples, const AddToFilm& addToFilm);
 
   /// For passes. Thread-safe.
   bool shouldStop() const { return schedule_.shouldStop(); }
@@ -47,7 +50,8 @@ class PassLoop {
   /// Seconds of this part and of those before.
   void noteTime();
   RenderProgress progress() const;
-  bool goesOn();
+  /// Asks somebody outside whether to go on, and leaves the time of that out.
+  bool goesOn(const std::function<bool(const PassEnd&)>& ask);
 
   const RenderOptions& options_;
   Plan plan_;

@@ -20,11 +20,13 @@ void mergeRecords(std::vector<Record>& all, const std::vector<Record>& more, std
 
 }  // namespace
 
-bool addReports(std::span<const UnitReport> units, bool isFirstPass, std::size_t maxRecords,
+bool areComplete(std::span<const UnitReport> units) {
+  return std::all_of(units.begin(), units.end(), [](const UnitReport& unit) { return unit.complete; });
+}
+
+void addReports(std::span<const UnitReport> units, bool isFirstPass, std::size_t maxRecords,
                 RenderResult& result) {
-  bool complete = true;
   for (const UnitReport& unit : units) {
-    complete &= unit.complete;
     result.samplesTaken += unit.samples;
     result.samplesAbandoned += unit.abandoned;
     if (isFirstPass) result.pixelsSampled += unit.pixelsSampled;
@@ -33,7 +35,6 @@ bool addReports(std::span<const UnitReport> units, bool isFirstPass, std::size_t
     mergeRecords(result.mismatches, unit.mismatches, maxRecords);
     mergeRecords(result.violations, unit.violations, maxRecords);
   }
-  return complete;
 }
 
 }  // namespace pbrtmedia

@@ -21,10 +21,13 @@ struct UnitReport {
   bool complete = false;  ///< all its samples of this pass are taken
 };
 
+/// Whether the units of a pass took all their samples.
+bool areComplete(std::span<const UnitReport> units);
+
 /// Adds what the units of a pass report, which stand in a fixed order and each note their records in order
 /// of pixel, then sample: so sums and records do not depend on units, threads and passes. `maxRecords`: of
-/// each kind are kept. Whether all units were complete.
-bool addReports(std::span<const UnitReport> units, bool isFirstPass, std::size_t maxRecords,
+/// each kind are kept.
+void addReports(std::span<const UnitReport> units, bool isFirstPass, std::size_t maxRecords,
                 RenderResult& result);
 
 }  // namespace pbrtmedia

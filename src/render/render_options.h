@@ -41,10 +41,16 @@ struct RenderOptions {
   std::optional<double> mostGrowth = std::nullopt;
   /// Density look-ups: the render stops after the pass that reaches so many, and passes shrink toward it.
   std::optional<std::uint64_t> mostLookups = std::nullopt;
+  /// Passes get so small that they take about so long, if a sample index takes no longer; has no effect on
+  /// the image.
+  double mostPassSeconds = std::numeric_limits<double>::infinity();
   double timeLimit = std::numeric_limits<double>::infinity();  ///< seconds of rendering
   const std::atomic<bool>* stop = nullptr;                     ///< set to true: stop soon
   /// Called on the calling thread after each whole pass. False: stop. What it takes is no time of rendering.
   std::function<bool(const PassEnd&)> afterPass{};
+  /// Called when a pass was left inside (stop, time), before its samples are added: film, bounds in force and
+  /// result are those of the last whole pass, as saveState wants them.
+  std::function<void(const PassEnd&)> beforePartialPass{};
   /// Called about ten times a second, from any one thread at a time.
   std::function<void(const RenderProgress&)> progress{};
   std::size_t maxRecords = 16;  ///< dropped samples, violations and mismatches that are kept

@@ -19,7 +19,8 @@ struct RenderState {
   std::vector<LearnedBounds::State> bounds;  ///< of the scene's learners, in their order
 };
 
-/// To be called after a whole pass (RenderOptions::afterPass) or after the last one.
+/// To be called after a whole pass (RenderOptions::afterPass), before one that was left inside is added
+/// (RenderOptions::beforePartialPass), or after the last one.
 RenderState saveState(const Scene& scene, const Film& film, const RenderResult& result);
 /// Puts film and bounds into that state; RenderOptions::start is for the rest. False, changing nothing, when
 /// it is of another film or other media.

@@ -2,6 +2,9 @@
 #include "render/sampling_integrator.h"
 
 #include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "base/interruption.h"
 #include "base/parallel.h"
@@ -47,7 +50,8 @@ class TileLoop {
                .mostPerPass = mostPerPass()}) {}
 
   RenderResult run() {
-    return loop_.run([this](const Pass& pass) { return renderPass(pass); });
+    return loop_.run([this](const Pass& pass) { return takeSamples(pass); },
+                     [this](std::span<const UnitReport> reports) { addToFilm(reports); });
   }
 
  private:
@@ -58,22 +62,23 @@ class TileLoop {
     return static_cast<std::int64_t>(std::max<std::size_t>(1, kPassBytes / perIndex));
   }
 
-  std::vector<UnitReport> renderPass(const Pass& pass) {
-    SamplePass samples(film_.sampleBounds(), pass.count, film_.layers(), pass.first);
+  std::vector<UnitReport> takeSamples(const Pass& pass) {
+    taken_.emplace(film_.sampleBounds(), pass.count, film_.layers(), pass.first);
+    splats_.assign(integrator_.makesSplats() ? tiles_.size() : 0, {});
     std::vector<UnitReport> reports(tiles_.size());
-    std::vector<SplatBuffer> splats(integrator_.makesSplats() ? tiles_.size() : 0);
     parallelFor(tiles_.size(), [&](std::size_t i) {
-      renderTile(tiles_[i], pass, samples, reports[i], splats.empty() ? nullptr : &splats[i]);
+      renderTile(tiles_[i], pass, *taken_, reports[i], splats_.empty() ? nullptr : &splats_[i]);
     });
-    film_.accumulate(samples);
-    if (!splats.empty()) addSplats(splats, reports);
     return reports;
   }
 
-  void addSplats(std::span<const SplatBuffer> splats, std::span<const UnitReport> reports) {
+  void addToFilm(std::span<const UnitReport> reports) {
+    film_.accumulate(*taken_);
+    taken_.reset();
+    if (splats_.empty()) return;
     std::uint64_t paths = 0;
     for (const UnitReport& report : reports) paths += report.samples;
-    film_.addSplats(splats, paths, film_.imageArea());
+    film_.addSplats(splats_, paths, film_.imageArea());
   }
 
   void renderTile(const Bounds2i& tile, const Pass& pass, SamplePass& samples, UnitReport& report,
@@ -117,6 +122,8 @@ class TileLoop {
   Bounds2i bounds_;
   std::int64_t samplesPerPixel_;
   std::vector<Bounds2i> tiles_;
+  std::optional<SamplePass> taken_;  ///< by the pass under way
+  std::vector<SplatBuffer> splats_;  ///< by tiles
   PassLoop loop_;
 };
 

@@ -50,6 +50,8 @@ class Schedule {
   Stopwatch watch_;
   PhaseTime elsewhere_;
   int passes_ = 0;
+  double lastStart_ = 0;  ///< of the last pass, seconds
+  int lastCount_ = 0;     ///< its sample indices
 };
 
 }  // namespace pbrtmedia

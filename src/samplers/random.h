@@ -17,6 +17,7 @@ class RandomSampler final : public Sampler {
   explicit RandomSampler(const Params& params);
   std::string_view typeName() const override { return "random"; }
   std::unique_ptr<Sampler> clone() const override;
+  bool isExtensible() const override { return true; }
   void start(Point2i pixel, std::int64_t index) override;
   float get1D() override;
   Point2f get2D() override;

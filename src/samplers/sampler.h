@@ -28,6 +28,8 @@ class Sampler {
   /// Samples per pixel after rounding.
   std::int64_t samplesPerPixel() const { return samplesPerPixel_; }
   std::uint64_t seed() const { return seed_; }
+  /// Whether a sample is the same however many there are of its pixel: more can then be taken later.
+  virtual bool isExtensible() const { return false; }
 
   /// Positions the stream at dimension 0 of one sample. `index` may exceed samplesPerPixel: the sequence goes
   /// on.

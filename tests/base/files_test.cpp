@@ -3,6 +3,8 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -165,6 +167,31 @@ TEST(WriteFileAtomically, NamesAMissingFolder) {
     EXPECT_NE(std::string(e.what()).find("there is no folder " + (folder.path() / "no").string()),
               std::string::npos);
   }
+}
+
+TEST(WriteFileAtomically, RemovesWhatKilledProcessesLeft) {
+  const TemporaryFolder folder;
+  const pid_t killed = ::fork();
+  if (killed == 0) {
+    writeFileAtomically(folder.path() / "a.out", [](const std::filesystem::path& temporary) {
+      std::ofstream(temporary) << "half";
+      ::kill(::getpid(), SIGKILL);
+    });
+  }
+  ::waitpid(killed, nullptr, 0);
+  ASSERT_EQ(folder.fileCount(), 1u);
+  const std::string left = std::filesystem::directory_iterator(folder.path())->path().filename().string();
+  // Of one that is still at work, of another file, of another kind, of none of ours.
+  const std::string alive = ".a.part" + std::to_string(::getpid()) + "-0.out",
+                    dead = ".a.part" + std::to_string(killed);
+  for (const std::string& stays :
+       {alive, ".b" + left.substr(2), dead + "-0.png", dead + ".out", dead, std::string(".a.part-1.out"),
+        std::string(".a.partner-0.out"), std::string("a.out")})
+    folder.write(stays, "");
+  removeLeftParts(folder.path() / "a.out");
+  EXPECT_FALSE(folder.has(left)) << left;
+  EXPECT_EQ(folder.fileCount(), 8u);
+  removeLeftParts(folder.path() / "no" / "folder" / "a.out");
 }
 
 TEST(WriteFileAtomically, FollowsASymbolicLinkAndWritesDevicesInPlace) {

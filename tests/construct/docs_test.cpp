@@ -78,7 +78,7 @@ void collectKeys(const nlohmann::ordered_json& value, const std::string& prefix,
 TEST(Docs, TheKeysOfTheStatisticsAreThoseThatAreWritten) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "s.json";
-  writeStatistics(file, {RenderStatistics{}});
+  writeStatistics(file, {statisticsText(RenderStatistics{})});
   const auto root = nlohmann::ordered_json::parse(textOf(file));
   std::set<std::string> top, written, documented;
   for (const auto& [key, value] : root.items()) top.insert(key);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -253,6 +255,24 @@ TEST(LearnedBounds, GoOnElsewhereAsIfNothingHadHappened) {
   LearnedBounds::State half = whole.state();
   half.least.pop_back();
   EXPECT_FALSE(second.fits(half));
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN(),
+                  kInf = std::numeric_limits<float>::infinity();
+  using Numbers = std::vector<float> LearnedBounds::State::*;
+  const std::vector<std::pair<Numbers, std::vector<float>>> wrong = {
+      {&LearnedBounds::State::upper, {0, -1, kNaN, kInf}},
+      {&LearnedBounds::State::most, {0, -1, kNaN, kInf}},
+      {&LearnedBounds::State::lower, {-1, kNaN, kInf}},
+      {&LearnedBounds::State::least, {-1, kNaN}}};
+  for (const auto& [numbers, values] : wrong) {
+    for (const float value : values) {
+      LearnedBounds::State bad = whole.state();
+      (bad.*numbers)[5] = value;
+      EXPECT_FALSE(second.fits(bad)) << value;
+    }
+  }
+  LearnedBounds::State unseen = whole.state();
+  unseen.least[5] = kInf;
+  EXPECT_TRUE(second.fits(unseen));
 }
 
 TEST(FieldBounds, CutTheDensityWhereTheyAreLearned) {

@@ -8,8 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "checkpoint_scene.h"
+#include "main/checkpoint_file.h"
 #include "media/bounds_cache.h"
 #include "media/grid_medium.h"
+#include "render/state_stream.h"
 #include "support/gzip.h"
 #if PBRT_MEDIA_HAS_NANOVDB
 #include "fields/nano_vdb_samples.h"
@@ -39,6 +42,29 @@ void writeRawGrids(const fs::path& to) {
   write(to / "ramp.gz", gzipped(bytes));
   write(to / "two.gz", gzipped(bytes) + gzipped(bytes));
   write(to / "empty.gz", gzipped(std::string(1 << 16, '\0')));
+}
+
+void writeCheckpoints(const fs::path& to) {
+  const std::unique_ptr<Scene> scene = test::checkpointScene();
+  const Film film = test::checkpointFilm();
+  RenderResult result;
+  CheckpointHead head;
+  const auto writeAll = [&](const std::string& name) {
+    Checkpoint::write(to / name, head, [&](ByteWriter& out) { writeState(out, *scene, film, result); });
+  };
+  writeAll("empty");
+  head.causes = {{"--seed", "0"}, {"the text of the scene", "#1"}};
+  head.samplesPerPixel = 4;
+  head.samplesDone = 2;
+  head.worldsDone = {"{}"};
+  head.parts = {{0, 2, {}, 2, "pbrt-media"}};
+  result.completedSamplesPerPixel = 2;
+  result.dropped.resize(1);
+  result.mismatches.resize(1);
+  result.violations.resize(1);
+  result.learning.resize(1);
+  result.learning[0].passes.resize(2);
+  writeAll("half");
 }
 
 void writeBounds(const fs::path& to) {
@@ -91,6 +117,7 @@ int main(int argc, char** argv) {
   const fs::path to = argv[1];
   writeRawGrids(folder(to, "rawgrid"));
   writeBounds(folder(to, "bounds"));
+  writeCheckpoints(folder(to, "checkpoint"));
 #if PBRT_MEDIA_HAS_NANOVDB
   writeNanoVdbs(folder(to, "nanovdb"));
 #endif

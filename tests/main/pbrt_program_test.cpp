@@ -162,6 +162,31 @@ TEST_F(SceneHash, CoversTheContentOfEveryFile) {
   EXPECT_FALSE(hashes.insert(hash()).second) << "the same bytes written again";
 }
 
+TEST_F(SceneHash, LetsImgtoolRefuseWhatDoesNotBelongTogether) {
+  const auto render = [&](const std::string& options, const std::string& file) {
+    ASSERT_EQ(pbrt("--quiet --outfile " + file + ' ' + options + " a.pbrt").status, 0);
+  };
+  const auto merge = [&](const std::string& files) {
+    const auto imgtool = std::filesystem::path(PBRT_PROGRAM).parent_path() / "imgtool";
+    return run("cd '" + folder_.path().string() + "' && '" + imgtool.string() + "' merge " + files +
+               " -o m.exr");
+  };
+  render("--seed 1", "one.exr");
+  render("--seed 2", "two.exr");
+  const ProcessResult good = merge("one.exr two.exr");
+  EXPECT_EQ(good.status, 0) << good.output;
+  render("--seed 3 --mediumparams '\"float g\" .5'", "other.exr");
+  const ProcessResult params = merge("one.exr other.exr");
+  EXPECT_EQ(params.status, 1);
+  EXPECT_NE(params.output.find("--mediumparams (none and '\"float g\" .5') differs"), std::string::npos)
+      << params.output;
+  writeVolume(2);
+  render("--seed 3", "volume.exr");
+  const ProcessResult volume = merge("one.exr volume.exr");
+  EXPECT_EQ(volume.status, 1);
+  EXPECT_NE(volume.output.find("the content of fog.raw differs"), std::string::npos) << volume.output;
+}
+
 TEST_F(Pbrt, TakesOptionsInEverySpelling) {
   folder_.write("a.pbrt", kScene);
   EXPECT_EQ(pbrt("-quick -nthreads 1 --outfile=x.exr a.pbrt").status, 0);

@@ -31,9 +31,10 @@ class ChainIntegrator final : public Integrator {
                   {.end = perPixel, .samplesPerIndex = area, .pixels = area, .mostPerPass = 4});
     std::vector<Chain> chains;
     for (std::size_t i = 0; i < chains_; ++i) chains.push_back(Chain{Rng(hashCombine(options.seed, i))});
-    return loop.run([&](const Pass& pass) {
+    std::vector<SplatBuffer> splats;
+    const auto takeSamples = [&](const Pass& pass) {
       std::vector<UnitReport> reports(chains_);
-      std::vector<SplatBuffer> splats(chains_);
+      splats.assign(chains_, {});
       const std::uint64_t mutations = area * static_cast<std::uint64_t>(pass.count) / chains_;
       parallelFor(chains_, [&](std::size_t i) {
         splats[i].begin(i);
@@ -46,11 +47,14 @@ class ChainIntegrator final : public Integrator {
         loop.reportProgress();
         reports[i].complete = true;
       });
+      return reports;
+    };
+    const auto addToFilm = [&](std::span<const UnitReport> reports) {
       std::uint64_t taken = 0;
       for (const UnitReport& report : reports) taken += report.samples;
       film.addSplats(splats, taken, static_cast<double>(area));
-      return reports;
-    });
+    };
+    return loop.run(takeSamples, addToFilm);
   }
 
   /// Mean over the image, as on the film: the luminance that chains are normalised by.

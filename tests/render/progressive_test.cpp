@@ -2,8 +2,12 @@
 // Bounds that are learned while rendering: where the image converges to, and that it depends on nothing else.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <span>
+#include <string_view>
 
 #include "media/medium.h"
 #include "render/render_state.h"
@@ -230,6 +234,53 @@ TEST_P(ProgressiveImage, GoesOnElsewhereToTheSameBits) {
     if (bounds == kUnknown) {
       EXPECT_NE(forgetful.film->state(), whole.film->state());
     }
+  }
+}
+
+/// Asks to stop when so many samples have begun.
+class StoppingSampler final : public Sampler {
+ public:
+  StoppingSampler(const Sampler& sampler, std::atomic<int>& left, std::atomic<bool>& stop)
+      : Sampler(sampler), sampler_(sampler.clone()), left_(left), stop_(stop) {}
+  std::string_view typeName() const override { return sampler_->typeName(); }
+  std::unique_ptr<Sampler> clone() const override {
+    return std::make_unique<StoppingSampler>(*sampler_, left_, stop_);
+  }
+  void start(Point2i pixel, std::int64_t index) override {
+    if (--left_ == 0) stop_ = true;
+    sampler_->start(pixel, index);
+  }
+  float get1D() override { return sampler_->get1D(); }
+  Point2f get2D() override { return sampler_->get2D(); }
+  void get2DArray(std::span<Point2f> out) override { sampler_->get2DArray(out); }
+
+ private:
+  std::unique_ptr<Sampler> sampler_;
+  std::atomic<int>& left_;
+  std::atomic<bool>& stop_;
+};
+
+TEST_P(ProgressiveImage, GoesOnToTheSameBitsAfterAStopInsideAPass) {
+  const std::string scene = cube(13, 7, GetParam().medium(GetParam().ways + kUnknown));
+  const Construction whole = constructText(scene);
+  whole.integrator->render(*whole.camera, *whole.sampler, *whole.film, {});
+  for (const int inThird : {1, 60, 168}) {
+    const Construction first = constructText(scene), second = constructText(scene);
+    const auto area = static_cast<int>(first.film->sampleBounds().area());
+    std::atomic<int> left{2 * area + inThird};
+    std::atomic<bool> stop{false};
+    RenderState state;
+    first.integrator->render(*first.camera, StoppingSampler(*first.sampler, left, stop), *first.film,
+                             {.stop = &stop, .beforePartialPass = [&](const PassEnd& end) {
+                                state = saveState(*first.scene, *first.film, end.result);
+                              }});
+    ASSERT_EQ(state.result.completedSamplesPerPixel, 2);
+    ASSERT_EQ(state.bounds[0].progress.passes, 2u);
+    ASSERT_TRUE(restoreState(state, *second.scene, *second.film));
+    const RenderResult result =
+        second.integrator->render(*second.camera, *second.sampler, *second.film, {.start = &state});
+    EXPECT_EQ(second.film->state(), whole.film->state());
+    EXPECT_EQ(result.completedSamplesPerPixel, 7);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <set>
@@ -373,6 +374,68 @@ TEST(RenderLoop, GoesOnFromAStateToTheSameResult) {
   EXPECT_FALSE(result.interrupted);
   Film other = smallFilm({36, 23});
   EXPECT_FALSE(restoreState(state, integrator.scene(), other));
+}
+
+TEST(RenderLoop, TellsOfAPassThatWasLeftInsideBeforeItIsOnTheFilm) {
+  const RandomSampler sampler({.pixelSamples = 9, .seed = 3});
+  Film whole = smallFilm();
+  halfBySplats(1).render(FlatCamera(), sampler, whole, {.seed = 3});
+  std::atomic<int> taken{0};
+  std::atomic<bool> stop{false};
+  const auto area = static_cast<int>(whole.sampleBounds().area());
+  const FakeIntegrator half = halfBySplats(1);
+  const FakeIntegrator stopping(
+      [&](const RayDifferential& ray, SampleContext& context) {
+        if (++taken > 5 * area) stop = true;  // in the second of the passes of four
+        return half.radiance(ray, context);
+      },
+      /*makesSplats=*/true);
+  Film film = smallFilm(), second = smallFilm();
+  std::vector<RenderState> states;
+  const RenderResult stopped = stopping.render(
+      FlatCamera(), sampler, film,
+      {.seed = 3, .samplesPerPass = 4, .stop = &stop, .beforePartialPass = [&](const PassEnd& end) {
+         states.push_back(saveState(stopping.scene(), film, end.result));
+       }});
+  EXPECT_TRUE(stopped.interrupted);
+  ASSERT_EQ(states.size(), 1u);
+  EXPECT_EQ(states[0].result.completedSamplesPerPixel, 4);
+  EXPECT_EQ(states[0].result.samplesTaken, 4u * static_cast<unsigned>(area));
+  EXPECT_GT(stopped.samplesTaken, states[0].result.samplesTaken) << "which the image has";
+  EXPECT_NE(film.state(), states[0].film);
+  ASSERT_TRUE(restoreState(states[0], stopping.scene(), second));
+  half.render(FlatCamera(), sampler, second, {.seed = 3, .start = &states[0]});
+  EXPECT_EQ(second.state(), whole.state());
+
+  // Nobody is told of a render that ends with a whole pass.
+  Film again = smallFilm();
+  const RenderResult asked = half.render(FlatCamera(), sampler, again,
+                                         {.seed = 3,
+                                          .samplesPerPass = 4,
+                                          .afterPass = [](const PassEnd&) { return false; },
+                                          .beforePartialPass = [](const PassEnd&) { ADD_FAILURE(); }});
+  EXPECT_TRUE(asked.interrupted);
+}
+
+TEST(RenderLoop, KeepsPassesAsShortAsIsWanted) {
+  const FakeIntegrator slow([](const RayDifferential&, SampleContext&) {
+    std::this_thread::sleep_for(std::chrono::microseconds(20));
+    return Rgb(1);
+  });
+  std::vector<std::int64_t> ends;
+  const auto note = [&](const PassEnd& end) {
+    ends.push_back(end.result.completedSamplesPerPixel);
+    return true;
+  };
+  // A sample index takes at least 20 us for each of 1107 samples, 22 ms: no two of them within 30 ms.
+  renderFake(slow, {.samplesPerPixel = 6, .mostPassSeconds = .03, .afterPass = note});
+  EXPECT_EQ(ends, (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6}));
+  ends.clear();
+  renderFake(slow, {.samplesPerPixel = 6, .mostPassSeconds = 1e3, .afterPass = note});
+  EXPECT_EQ(ends, (std::vector<std::int64_t>{1, 3, 6})) << "doubled from pass to pass";
+  ends.clear();
+  renderFake(slow, {.samplesPerPixel = 6, .afterPass = note});
+  EXPECT_EQ(ends, (std::vector<std::int64_t>{6}));
 }
 
 TEST(RenderLoop, DoesNotCountTheTimeOfWhoLooksOn) {

@@ -56,12 +56,22 @@ class BackgroundProgram {
   /// Its exit status, 128 + signal when killed, as soon as it ends; nothing when it does not within the time.
   std::optional<int> wait(double seconds) {
     for (double waited = 0; !status_ && waited < seconds; waited += 0.01) {
-      int status = 0;
-      if (::waitpid(process_, &status, WNOHANG) == process_)
-        status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-      else
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      if (!isOver()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
+    return status_;
+  }
+  bool isOver() {
+    int status = 0;
+    if (!status_ && ::waitpid(process_, &status, WNOHANG) == process_) note(status);
+    return status_.has_value();
+  }
+  /// Sends a signal and waits for the end: what `wait` answers; nothing when the program was over before.
+  std::optional<int> end(int signal) {
+    if (isOver()) return std::nullopt;
+    ::kill(process_, signal);
+    int status = 0;
+    ::waitpid(process_, &status, 0);
+    note(status);
     return status_;
   }
   /// Names of its threads.
@@ -78,6 +88,8 @@ class BackgroundProgram {
   }
 
  private:
+  void note(int status) { status_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
+
   std::filesystem::path output_;
   pid_t process_ = -1;
   std::optional<int> status_;
