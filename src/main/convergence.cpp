@@ -76,7 +76,8 @@ void checkReference(const Image& reference, const Film& film, Bounds2i pixels) {
 
 double ConvergenceLog::mostGrowth() { return std::pow(10.0, 1.0 / (2 * kRowsPerDecade)) - 1; }
 
-ConvergenceLog::ConvergenceLog(const Params& params, const Film& film) : film_(film), pixels_(params.pixels) {
+ConvergenceLog::ConvergenceLog(const Params& params, const Film& film)
+    : film_(film), pixels_(params.pixels), onRow_(params.onRow) {
   if (params.reference) {
     const Image reference = placed(*params.reference, film);
     checkReference(reference, film, pixels_);
@@ -113,14 +114,15 @@ void ConvergenceLog::writeRow(const RenderResult& result) {
   nextRow_ = result.seconds * (1 + mostGrowth());
   samplesOfLastRow_ = result.samplesTaken;
   const RenderCounters& c = result.counters;
-  out_ << result.seconds << ',' << result.cpuSeconds << ','
-       << static_cast<double>(result.samplesTaken) / static_cast<double>(result.pixelsTotal) << ','
-       << c.densityLookups << ',' << c.rays + c.shadowRays << ',';
+  const double samples = static_cast<double>(result.samplesTaken) / static_cast<double>(result.pixelsTotal);
+  out_ << result.seconds << ',' << result.cpuSeconds << ',' << samples << ',' << c.densityLookups << ','
+       << c.rays + c.shadowRays << ',';
   if (const std::optional<ErrorSummary> e = error(result)) {
     out_ << e->mse << ',' << e->rmse << ',' << e->relativeMse << ',' << e->relativeMseRobust << ','
          << e->smape << ',';
     if (reference_) out_ << e->meanSigned;
     out_ << ',' << e->mse * result.seconds << ',';
+    if (onRow_) onRow_({result.seconds, samples, *e, reference_.has_value()});
   } else {
     out_ << ",,,,,,,";
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -14,6 +15,13 @@
 #include "render/render_result.h"
 
 namespace pbrtmedia {
+
+/// An error that was measured.
+struct ErrorRow {
+  double seconds = 0, samplesPerPixel = 0;
+  ErrorSummary error;
+  bool isOfReference = false;  ///< else estimated from halves of the samples
+};
 
 /// `--convergence FILE.csv`: how the error of the image falls while it is rendered, a row after passes that
 /// are spaced geometrically in time. Rows are in the file as soon as they are known. Against a reference, or,
@@ -30,8 +38,9 @@ class ConvergenceLog {
     std::filesystem::path file;
     /// Of the whole picture or of what the film shows of it.
     std::optional<Image> reference{};
-    Bounds2i pixels{};      ///< those of the film that samples are taken of
-    std::string command{};  ///< for the first line
+    Bounds2i pixels{};                             ///< those of the film that samples are taken of
+    std::string command{};                         ///< for the first line
+    std::function<void(const ErrorRow&)> onRow{};  ///< gets every row with a number
   };
   /// `film` must outlive the object. Throws SceneError when the reference has other pixels, and
   /// std::runtime_error when the file cannot be written.
@@ -52,6 +61,7 @@ class ConvergenceLog {
 
   const Film& film_;
   Bounds2i pixels_;
+  std::function<void(const ErrorRow&)> onRow_;
   std::optional<Image> reference_;
   std::ofstream out_;
   int rows_ = 0;

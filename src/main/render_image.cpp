@@ -16,7 +16,7 @@ namespace {
 /// What looks at the image after passes: whether it is good enough, and how good it is.
 class Measuring {
  public:
-  Measuring(const Construction& scene, const Options& options) {
+  Measuring(const Construction& scene, const Options& options, Watching& watching) {
     Film& film = *scene.film;
     const Bounds2i pixels =
         scene.pixelBounds ? intersect(film.pixelBounds(), *scene.pixelBounds) : film.pixelBounds();
@@ -25,6 +25,9 @@ class Measuring {
     ConvergenceLog::Params log{
         .file = *options.convergence, .pixels = pixels, .command = options.commandLine};
     if (options.reference) log.reference = readImage(*options.reference);
+    if (watching.isOn()) {
+      log.onRow = [&watching](const ErrorRow& row) { watching.addError(row); };
+    }
     log_.emplace(log, film);
   }
 
@@ -82,8 +85,9 @@ RenderedImage renderImage(const Construction& scene, const Options& options, con
   loop.pixelBounds = scene.pixelBounds;
   loop.stop = &ending.stop.flag();
   if (options.mostLookups) loop.mostLookups = static_cast<std::uint64_t>(*options.mostLookups);
-  Measuring measuring(scene, options);
+  Measuring measuring(scene, options, watching);
   if (measuring.isNeeded()) loop.mostGrowth = ConvergenceLog::mostGrowth();
+  if (watching.isOn()) loop.mostSecondsPerPass = Watching::kMostSecondsPerPass;
   if (measuring.isNeeded() || watching.isOn()) {
     loop.afterPass = [&](const PassEnd& end) {
       if (watching.isOn()) watching.afterPass(end, *scene.film);

@@ -30,6 +30,10 @@ std::optional<double> secondsLeft(const RenderProgress& p, double timeLimit) {
   return p.seconds / std::min(fraction, 1.0) - p.seconds;
 }
 
+ErrorHistory estimatedErrors() {
+  return {{"seconds", "spp", "rmse"}, {}, "estimated from how the image changed"};
+}
+
 BoundsStatus statusOf(const LearningRecord& record) {
   const LearningProgress& now = record.passes.empty() ? record.warmUp : record.passes.back();
   return {.medium = record.medium,
@@ -58,7 +62,7 @@ Watching::Watching(const Options& options)
     status.version = buildText();
     status.seed = options.seed;
     status.threads = threadCount();
-    status.errors = {{"seconds", "spp", "rmse"}, {}, "estimated from how the image changed"};
+    status.errors = estimatedErrors();
   });
   try {
     if (options.serve) startServer(options);
@@ -153,6 +157,7 @@ void Watching::begin(const std::string& outfile, std::int64_t samplesPerPixel) {
   title_ = outfile + " (" + std::to_string(::getpid()) + ')';
   samplesPerPixel_ = samplesPerPixel;
   compared_.reset();
+  isMeasured_ = false;
   feed_->update([&](RenderStatus& status) {
     status.phase = "rendering";
     status.outfile = outfile;
@@ -160,7 +165,7 @@ void Watching::begin(const std::string& outfile, std::int64_t samplesPerPixel) {
     status.samplesDone = 0;
     status.seconds = 0;
     status.secondsLeft.reset();
-    status.errors.rows.clear();
+    status.errors = estimatedErrors();
     status.bounds.clear();
   });
 }
@@ -196,7 +201,7 @@ double Watching::samplesPerPixelOf(const RenderProgress& p) const {
 
 bool Watching::estimateError(const Image& image, const RenderProgress& progress) {
   const double samples = samplesPerPixelOf(progress);
-  if (compared_ && samples < kLeastGrowth * comparedSamples_) return false;
+  if (isMeasured_ || (compared_ && samples < kLeastGrowth * comparedSamples_)) return false;
   if (compared_) {
     const std::optional<double> error = errorFromChange(compared_->image, comparedSamples_, image, samples);
     if (error) {
@@ -207,6 +212,21 @@ bool Watching::estimateError(const Image& image, const RenderProgress& progress)
   }
   comparedSamples_ = samples;
   return true;
+}
+
+void Watching::addError(const ErrorRow& row) {
+  if (!feed_) return;
+  feed_->update([&](RenderStatus& status) {
+    if (!isMeasured_)
+      status.errors = {{"seconds", "spp", "mse", "rmse", "relmse", "relmse_robust", "smape"}, {}, ""};
+    status.errors.source =
+        row.isOfReference ? "against the reference" : "estimated from two halves of the samples";
+    const ErrorSummary& e = row.error;
+    status.errors.rows.push_back(
+        {row.seconds, row.samplesPerPixel, e.mse, e.rmse, e.relativeMse, e.relativeMseRobust, e.smape});
+  });
+  isMeasured_ = true;
+  compared_.reset();
 }
 
 void Watching::showBounds(const RenderResult& result) {

@@ -13,6 +13,7 @@
 #include "display/page_server.h"
 #include "display/tev_sender.h"
 #include "film/film.h"
+#include "main/convergence.h"
 #include "main/options.h"
 #include "render/render_options.h"
 #include "render/render_result.h"
@@ -33,6 +34,8 @@ class Watching {
   Watching& operator=(const Watching&) = delete;
 
   bool isOn() const { return feed_ != nullptr; }
+  /// What a pass may take, so that the image grows often enough.
+  static constexpr double kMostSecondsPerPass = 1;
 
   /// What is done now: "reading", "building", "rendering", "writing".
   void enter(const std::string& phase);
@@ -46,6 +49,8 @@ class Watching {
   void update(const RenderProgress& progress, double timeLimit);
   /// After each pass.
   void afterPass(const PassEnd& pass, const Film& film);
+  /// An error that was measured: from now on these are shown, and none is estimated.
+  void addError(const ErrorRow& row);
   /// The image as it is written; what the file is called.
   void finish(const Image& image, const RenderResult& result, const std::string& written);
 
@@ -72,6 +77,7 @@ class Watching {
   Pace pace_;
   std::shared_ptr<const Snapshot> compared_;  ///< the image of the latest row of the history of errors
   double comparedSamples_ = 0;                ///< of its pixels
+  bool isMeasured_ = false;                   ///< errors are, so that none need be estimated
 };
 
 }  // namespace pbrtmedia

@@ -39,6 +39,9 @@ struct RenderOptions {
   std::optional<int> samplesPerPass = std::nullopt;    ///< has no effect on the image; default: by memory
   /// A pass has at most this share of the samples so far, for who looks on often; has no effect on the image.
   std::optional<double> mostGrowth = std::nullopt;
+  /// A pass takes about so many seconds at most, by the rate so far, or else one sample of each pixel; the
+  /// same.
+  double mostSecondsPerPass = std::numeric_limits<double>::infinity();
   /// Density look-ups: the render stops after the pass that reaches so many, and passes shrink toward it.
   std::optional<std::uint64_t> mostLookups = std::nullopt;
   /// Passes get so small that they take about so long, if a sample index takes no longer; has no effect on

@@ -5,7 +5,8 @@
 
 namespace pbrtmedia {
 
-Schedule::Schedule(const Plan& plan, const RenderOptions& options) : plan_(plan), options_(options) {}
+Schedule::Schedule(const Plan& plan, const RenderOptions& options)
+    : plan_(plan), options_(options), begin_(plan.first) {}
 
 PhaseTime Schedule::time() const {
   PhaseTime time = watch_.elapsed();
@@ -42,6 +43,10 @@ std::int64_t Schedule::passSize(std::uint64_t lookups) const {
   const std::int64_t done = plan_.first - options_.firstSample;
   if (options_.mostGrowth)
     size = std::min(size, static_cast<std::int64_t>(*options_.mostGrowth * static_cast<double>(done)));
+  if (const std::int64_t here = plan_.first - begin_; here > 0) {
+    const double most = options_.mostSecondsPerPass * static_cast<double>(here) / std::max(seconds(), 1e-9);
+    if (most < static_cast<double>(size)) size = static_cast<std::int64_t>(most);
+  }
   if (options_.mostLookups && done > 0) {
     const double perIndex = static_cast<double>(lookups) / static_cast<double>(done),
                  left = static_cast<double>(*options_.mostLookups) - static_cast<double>(lookups);

@@ -256,6 +256,22 @@ TEST_F(Serving, ShowsWarningsAndLearnedBounds) {
   EXPECT_NE(now["warnings"].dump().find("unknownthing"), std::string::npos) << now["warnings"];
 }
 
+TEST_F(Serving, ShowsErrorsThatAreMeasured) {
+  folder_.write("a.pbrt", scene(16, kEndless));
+  serve({"--serve", "0", "--convergence", "error.csv", "a.pbrt"});
+  ASSERT_TRUE(waitFor([&] {
+    const nlohmann::json now = status();
+    return now["phase"] == "rendering" && now["errors"]["rows"].size() >= 3 &&
+           now["errors"]["columns"].size() == 7;
+  })) << program_->output();
+  const nlohmann::json errors = status()["errors"];
+  EXPECT_EQ(errors["columns"][4], "relmse");
+  EXPECT_EQ(errors["source"], "estimated from two halves of the samples");
+  const nlohmann::json& row = errors["rows"][2];
+  EXPECT_NEAR(row[3].get<double>() * row[3].get<double>(), row[2].get<double>(), 1e-9) << "rmse and mse";
+  EXPECT_NE(folder_.read("error.csv").find(",halves\n"), std::string::npos);
+}
+
 TEST_F(Serving, AnImageIsMadeForThoseWhoLookOnly) {
   Options options;
   options.serve = Endpoint{"127.0.0.1", 0};

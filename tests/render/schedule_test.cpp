@@ -45,6 +45,21 @@ TEST(Schedule, GrowsNoFasterThanAsked) {
   EXPECT_EQ(passes, (std::vector<int>{1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 3, 3, 4, 5, 6, 6, 1}));
 }
 
+TEST(Schedule, MakesPassesThatTakeNoLongerThanAsked) {
+  const RenderOptions options{.mostSecondsPerPass = .02};
+  // An index takes a millisecond at least: no pass may have more than twenty once that is known.
+  Schedule schedule({.first = 100, .end = 300, .mostPerPass = 64}, options);
+  std::vector<int> passes;
+  while (const auto pass = schedule.next(0)) {
+    passes.push_back(pass->count);
+    std::this_thread::sleep_for(std::chrono::milliseconds(pass->count));
+  }
+  EXPECT_EQ(passes.front(), 64) << "nothing is known yet";
+  for (std::size_t i = 1; i < passes.size(); ++i) EXPECT_LE(passes[i], 20);
+  EXPECT_EQ(sizes({.mostSecondsPerPass = 1e-12}, {.first = 0, .end = 3, .mostPerPass = 1}),
+            (std::vector<int>{1, 1, 1}));
+}
+
 TEST(Schedule, ComesToABudgetOfLookupsWithinOneIndex) {
   // 100 look-ups an index: the tenth index reaches 950.
   const std::vector<int> passes =
