@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """pbrt-compare as a whole, with the real renderer on a tiny scene. PBRT_MEDIA_BIN names the folder of pbrt and imgtool."""
 import csv
+import html
 import json
 import os
 import re
@@ -216,17 +217,49 @@ class OneComparison(WithProgram):
         self.assertIn("Tiny &lt;scene&gt;", text)
         self.assertNotIn("@", re.sub(r"<script.*?</script>|<style>.*?</style>|<svg.*?</svg>", "", text, flags=re.DOTALL))
         self.assertIsNone(re.search(r"""(src|href)=["']?(?!#)|url\((?!#)|@import|fetch\(""", re.sub(r'xlink:href="#', "", text)))
-        chromium = shutil.which("chromium")
-        if not chromium:
+        if not shutil.which("chromium"):
             self.skipTest("no Chromium: the page is not opened")
-        words = [chromium, "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", f"--user-data-dir={self.folder}/profile", "--dump-dom",
-                 page.as_uri()]
-        shown = subprocess.run(words, capture_output=True, text=True, timeout=120, check=True).stdout
+        shown = self.opened(page)
         # The reference and two settings; each with a picture that was drawn, wider than a canvas that nobody touched.
         panes = re.findall(r'<div class="pane">.*?<canvas width="(\d+)"', shown, flags=re.DOTALL)
         self.assertEqual(len(panes), 3)
         self.assertTrue(all(int(width) > 0 and int(width) != 300 for width in panes), panes)
         self.assertEqual(len(re.findall(r'<div class="plot on"', shown)), 1)
+
+    def test_every_button_of_the_page_works(self):
+        if not shutil.which("chromium"):
+            self.skipTest("no Chromium: the page is not opened")
+        clicks = """<script>
+const problems = [], drawn = [];
+window.onerror = (message) => problems.push(message);
+window.onunhandledrejection = (event) => problems.push(String(event.reason));
+const pause = () => new Promise((done) => setTimeout(done, 150));
+(async () => {
+  await pause();
+  for (const button of document.querySelectorAll("button, th")) { button.click(); await pause(); drawn.push(document.querySelectorAll(".pane").length); }
+  const slider = document.querySelector("input");
+  slider.value = 2; slider.oninput(); await pause();
+  const canvas = document.querySelector(".pane canvas"), at = {clientX: 300, clientY: 500, deltaY: -300, pointerId: 1};
+  canvas.setPointerCapture = () => {};
+  for (const kind of ["pointerdown", "pointermove", "pointerup"]) canvas.dispatchEvent(new PointerEvent(kind, at));
+  canvas.dispatchEvent(new WheelEvent("wheel", at));
+  document.body.dataset.clicked = JSON.stringify({problems, drawn, where: document.querySelector(".where").textContent});
+})();
+</script></body>"""
+        page = self.folder / "clicked.html"
+        page.write_text((self.whole / "report.html").read_text().replace("</body>", clicks))
+        found = re.search(r'<body data-clicked="([^"]*)"', self.opened(page))
+        self.assertIsNotNone(found, "the script did not come to its end")
+        said = json.loads(html.unescape(found[1]))
+        self.assertEqual(said["problems"], [])
+        # Pictures have the reference too, maps two panes, the slider one.
+        self.assertEqual(set(said["drawn"]), {1, 2, 3})
+
+    def opened(self, page: Path) -> str:
+        """The page as it is after its scripts, in headless Chromium."""
+        words = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--window-size=1400,1000", "--virtual-time-budget=20000",
+                 f"--user-data-dir={self.folder}/profile", "--dump-dom", page.as_uri()]
+        return subprocess.run(words, capture_output=True, text=True, timeout=120, check=True).stdout
 
 
 if __name__ == "__main__":
