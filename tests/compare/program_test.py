@@ -111,7 +111,8 @@ class Program(WithProgram):
         self.tool.run("merge", *(out / "slices" / r["image"] for r in slices), "-o", self.folder / "merged.exr")
         expected = json.loads(self.tool.run("diff", self.folder / "merged.exr", self.folder / "given.pfm", "--json"))
         found = next(r for r in rows(out / "curves.csv") if r["setting"] == "thick" and r["repeat"] == "1" and r["slices"] == "2")
-        for ours, theirs in (("mse", "mse"), ("relmse", "relativeMse"), ("mean_signed", "meanSigned")):
+        for ours, theirs in (("mse", "mse"), ("relmse", "relativeMse"), ("relmse_robust", "relativeMseRobust"), ("smape", "smape"),
+                             ("mean_signed", "meanSigned")):
             self.assertAlmostEqual(float(found[ours]) / expected[theirs], 1, places=5)
         self.assertEqual(float(found["spp"]), 32)
 
