@@ -65,7 +65,7 @@ TcpConnection::TcpConnection(const Endpoint& to, const Patience& patience) {
   hints.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
   const int failed = ::getaddrinfo(to.host.c_str(), std::to_string(to.port).c_str(), &hints, &found);
-  if (failed != 0) throw std::runtime_error(::gai_strerror(failed));
+  if (failed != 0) throw UnknownHost(::gai_strerror(failed));
   const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, ::freeaddrinfo);
   for (const addrinfo* address = addresses.get(); address; address = address->ai_next) {
     try {

@@ -15,6 +15,12 @@ class Stalled : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The name of a host leads nowhere.
+class UnknownHost : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A connection to another program that bytes are sent to. Waits no longer than it is told, raises no signal.
 class TcpConnection {
  public:
@@ -22,7 +28,8 @@ class TcpConnection {
   /// on.
   using Patience = std::function<bool(double stalledSeconds)>;
 
-  /// Throws std::runtime_error with the reason; Stalled when the patience is over.
+  /// Throws std::runtime_error with the reason: UnknownHost, Stalled when the patience is over. To look up a
+  /// name may take as long as the system likes.
   TcpConnection(const Endpoint& to, const Patience& patience);
   ~TcpConnection();
   TcpConnection(TcpConnection&& other) noexcept;

@@ -53,9 +53,13 @@ void TevSender::connect() {
     if (isAbsenceTold_) return;
     isAbsenceTold_ = true;
     absence_ = e.what();
+    // To look for a name again may take long each time.
+    isGivenUp_ = dynamic_cast<const UnknownHost*>(&e) != nullptr;
     notice_("--display-server " + params_.viewer.toString() + ": nobody shows the image there (" + e.what() +
-            "); rendering goes on, and a viewer that is started later is found (tev listens at port " +
-            std::to_string(kTevPort) + ')');
+            "); rendering goes on" +
+            (isGivenUp_ ? " without a viewer"
+                        : ", and a viewer that is started later is found (tev listens at port " +
+                              std::to_string(kTevPort) + ')'));
   }
 }
 
@@ -78,6 +82,7 @@ void TevSender::show(const std::shared_ptr<const Snapshot>& snapshot) {
                       patience);
   }
   for (const Bounds2i& tile : changedTiles(isNew ? nullptr : &shown_->image, image, kTileEdge)) {
+    if (!isPatient(0)) throw Stalled("it takes too long");
     connection_->send(tev::updateImage(snapshot->title, image, tile), patience);
   }
   shown_ = snapshot;

@@ -134,6 +134,16 @@ TEST_F(TevSenderTest, TellsOnceThatNobodyListensAndFindsAViewerLater) {
   feed_.close();
 }
 
+TEST_F(TevSenderTest, DoesNotLookForAnUnknownHostAgain) {
+  TevSender::Params params = to(14158);
+  params.viewer.host = "viewer.invalid";
+  TevSender sender(feed_, params, notice());
+  EXPECT_NE(sender.absence(), "");
+  EXPECT_NE(notices().find("rendering goes on without a viewer"), std::string::npos) << notices();
+  EXPECT_FALSE(feed_.isWatched());
+  feed_.close();
+}
+
 TEST_F(TevSenderTest, OutlivesAViewerThatDiesAndFindsTheNext) {
   int port = 0;
   TevSender::Params params;
