@@ -176,11 +176,7 @@ Image Film::develop() const {
   image.displayWindow = {{0, 0}, settings_.resolution};
   const double perSplat =
       state_.splatPaths > 0 ? state_.splatArea / static_cast<double>(state_.splatPaths) : 0;
-  const auto channel = [&](double mean) {
-    constexpr double kMost = std::numeric_limits<float>::max();
-    if (!keepsNegatives_) mean = std::max(0.0, mean);
-    return static_cast<float>(std::clamp(mean * settings_.scale, -kMost, kMost));
-  };
+  const Development development = this->development();
   std::size_t i = 0;
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x, ++i) {
@@ -188,8 +184,9 @@ Image Film::develop() const {
       const SplatSum splats = state_.splats.empty() ? SplatSum{} : state_.splats[i];
       const auto mean = [&](double sum) { return s.weight != 0 ? sum / s.weight : 0; };
       image.setRgb(x, y,
-                   {channel(mean(s.r) + splats.r * perSplat), channel(mean(s.g) + splats.g * perSplat),
-                    channel(mean(s.b) + splats.b * perSplat)});
+                   {development.value(mean(s.r) + splats.r * perSplat),
+                    development.value(mean(s.g) + splats.g * perSplat),
+                    development.value(mean(s.b) + splats.b * perSplat)});
       for (std::size_t c = 3; c < image.channelCount(); ++c)
         image.at(x, y, c) = static_cast<float>(mean(state_.layers[i * (image.channelCount() - 3) + c - 3]));
     }

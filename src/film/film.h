@@ -13,6 +13,7 @@
 #include "film/splat_buffer.h"
 #include "filters/filter.h"
 #include "image/image.h"
+#include "image/weighted_sums.h"
 #include "spectrum/rgb.h"
 
 namespace pbrtmedia {
@@ -31,11 +32,8 @@ class Film {
     float maxSampleLuminance = kInfinity;
     LayerSet layers{};  ///< what the image is to hold besides colour
   };
-  /// Weighted sums of the samples of one pixel.
-  struct Sums {
-    double r = 0, g = 0, b = 0, weight = 0;
-    bool operator==(const Sums&) const = default;
-  };
+  /// Of the samples of one pixel.
+  using Sums = WeightedSums;
   /// Of splats, in double; they have no weights.
   struct SplatSum {
     double r = 0, g = 0, b = 0;
@@ -71,6 +69,8 @@ class Film {
   /// From now on negative luminances are samples like others, and negative pixels stay negative: for scenes
   /// whose estimators have such samples, and would be biased without them.
   void keepNegatives() { keepsNegatives_ = true; }
+  /// How sums become pixels.
+  Development development() const { return {settings_.scale, keepsNegatives_}; }
   bool keepsNegatives() const { return keepsNegatives_; }
   /// From now on samples of even and of odd index are told apart, for an estimate of the error: to be called
   /// before the first sample. Costs a second set of sums, and half as much time again in adding passes.

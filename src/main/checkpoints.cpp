@@ -51,6 +51,10 @@ std::vector<ImageCause> causesOf(const SceneIdentity& identity, const Constructi
   for (const SceneIdentity::File& file : identity.files)
     causes.push_back({"the content of \"" + file.name + '"', hashed(file.content)});
   causes.push_back({"--seed", std::to_string(options.seed)});
+  std::string samples = "all";
+  if (options.samples)
+    samples = std::to_string(options.samples->first).append(":").append(std::to_string(options.samples->end));
+  causes.push_back({"--samples", samples});
   causes.push_back({"--quick", options.quick ? "yes" : "no"});
   const Point2i size = film.settings().resolution;
   causes.push_back({"the resolution", std::to_string(size.x) + " x " + std::to_string(size.y)});

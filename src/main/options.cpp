@@ -4,6 +4,7 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <charconv>
 #include <functional>
 #include <map>
 #include <stdexcept>
@@ -30,6 +31,26 @@ std::function<std::string(std::string&)> problemOf(Endpoint (*parse)(std::string
       return e.what();
     }
   };
+}
+
+/// "16:64" as numbers; nothing for what is no range.
+std::optional<SampleRange> parseSampleRange(const std::string& text) {
+  SampleRange range;
+  const char *const begin = text.data(), *const end = begin + text.size();
+  const auto first = std::from_chars(begin, end, range.first);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != ':') return std::nullopt;
+  const auto last = std::from_chars(first.ptr + 1, end, range.end);
+  const bool isRange =
+      last.ec == std::errc() && last.ptr == end && range.first >= 0 && range.end > range.first;
+  return isRange ? std::optional(range) : std::nullopt;
+}
+
+CLI::Validator sampleRange() {
+  const auto check = [](std::string& text) -> std::string {
+    if (parseSampleRange(text)) return {};
+    return "found " + text + ", expected FIRST:LAST, whole numbers with 0 <= FIRST < LAST";
+  };
+  return CLI::Validator(check, "");
 }
 
 std::string shellQuoted(const std::string& word) {
@@ -89,8 +110,8 @@ class OptionList {
   Options options_;
   std::vector<std::string> scenes_;
   std::vector<float> crop_;
-  std::string outfile_, stats_, boundsCache_, checkpoint_, resume_, convergence_, reference_, displayServer_,
-      serve_;
+  std::string outfile_, samples_, stats_, boundsCache_, checkpoint_, resume_, convergence_, reference_,
+      displayServer_, serve_;
   std::string progress_ = "auto", logDirectory_;
   int minLogLevel_ = 0, verbosity_ = 0;
   bool logToStderr_ = false;
@@ -116,6 +137,11 @@ void OptionList::addSampling() {
   app_.add_option("--spp", options_.samplesPerPixel, "samples per pixel instead of the scene's")
       ->check(wholeNumber(std::int64_t{1}, std::int64_t{1} << 40))
       ->type_name("N")
+      ->group(kRendering);
+  app_.add_option("--samples", samples_,
+                  "take only the samples FIRST to LAST - 1 of each pixel; imgtool merge puts ranges together")
+      ->check(sampleRange())
+      ->type_name("FIRST:LAST")
       ->group(kRendering);
   app_.add_option("--seed", options_.seed, "seed of all random numbers (default 0)")
       ->check(wholeNumber(std::uint64_t{0}, ~std::uint64_t{0}))
@@ -295,6 +321,7 @@ OptionsOutcome OptionList::read(const std::vector<std::string>& words) {
   for (const std::string& scene : scenes_) options_.scenes.emplace_back(scene);
   if (options_.scenes.empty()) options_.scenes.emplace_back("-");
   if (!outfile_.empty()) options_.outfile = outfile_;
+  if (!samples_.empty()) options_.samples = parseSampleRange(samples_);
   if (!stats_.empty()) options_.statsFile = stats_;
   if (!boundsCache_.empty()) options_.boundsCache = boundsCache_;
   if (!convergence_.empty()) options_.convergence = convergence_;

@@ -15,6 +15,11 @@ namespace pbrtmedia {
 
 enum class ProgressMode { Auto, Plain, None };
 
+/// Indices [first, end) of the samples of each pixel.
+struct SampleRange {
+  std::int64_t first = 0, end = 0;
+};
+
 /// The command line of `pbrt`, checked.
 struct Options {
   std::vector<std::filesystem::path> scenes;  ///< "-" alone: standard input
@@ -30,6 +35,7 @@ struct Options {
   bool strict = false;
   bool verbose = false;
   std::optional<std::int64_t> samplesPerPixel;
+  std::optional<SampleRange> samples;  ///< only these are taken
   std::uint64_t seed = 0;
   std::optional<std::filesystem::path> statsFile;
   ProgressMode progress = ProgressMode::Auto;

@@ -52,16 +52,33 @@ std::string worldName(const Options& options, std::size_t number) {
   return name + '#' + std::to_string(number);
 }
 
+/// Files that could not be written, or read, in the end: told before hours of work.
+void checkFiles(const Options& options) {
+  if (options.statsFile) requireWritable("--stats", *options.statsFile);
+  if (options.convergence) requireWritable("--convergence", *options.convergence);
+  if (options.reference) readImage(*options.reference);
+  if (options.boundsCache) requireWritable("--bounds-cache", *options.boundsCache);
+  if (options.checkpoint) requireWritable("--checkpoint", *options.checkpoint);
+}
+
+/// What is wrong with the worlds of a scene all together.
+void checkWorlds(const std::vector<SceneDescription>& worlds, const Options& options,
+                 Diagnostics& diagnostics) {
+  if (worlds.empty() && !diagnostics.hasErrors()) {
+    diagnostics.error({}, "no WorldBegin … WorldEnd block in " + sceneNames(options) + ": nothing to render");
+  }
+  if (options.convergence && worlds.size() > 1) {
+    diagnostics.error({}, "--convergence is of one image, and there are " + std::to_string(worlds.size()) +
+                              " WorldBegin … WorldEnd blocks; render them apart");
+  }
+  reportSharedOutputs(worlds, options, diagnostics);
+}
+
 }  // namespace
 
 int runPbrt(const Options& options) {
   if (options.cat || options.toPly) return printScenes(options);
-  if (options.statsFile) requireWritable("--stats", *options.statsFile);
-  if (options.convergence) requireWritable("--convergence", *options.convergence);
-  if (options.reference)
-    readImage(*options.reference);  // whether it is an image is told before hours of work
-  if (options.boundsCache) requireWritable("--bounds-cache", *options.boundsCache);
-  if (options.checkpoint) requireWritable("--checkpoint", *options.checkpoint);
+  checkFiles(options);
   Checkpoints checkpoints(options);
   const ThreadLimit threads(options.threads);
   const StopSignal stop({.notice = kNothingYet,
@@ -82,14 +99,7 @@ int runPbrt(const Options& options) {
     return reportNoImage(stopped, options, ending, "while the scene was read");
   }
   const PhaseTime parseTime = parsing.elapsed();
-  if (worlds.empty() && !diagnostics.hasErrors()) {
-    diagnostics.error({}, "no WorldBegin … WorldEnd block in " + sceneNames(options) + ": nothing to render");
-  }
-  if (options.convergence && worlds.size() > 1) {
-    diagnostics.error({}, "--convergence is of one image, and there are " + std::to_string(worlds.size()) +
-                              " WorldBegin … WorldEnd blocks; render them apart");
-  }
-  reportSharedOutputs(worlds, options, diagnostics);
+  checkWorlds(worlds, options, diagnostics);
   show(diagnostics, options.quiet);
   watching.add(diagnostics);
   if (diagnostics.hasErrors()) return kExitBadInput;

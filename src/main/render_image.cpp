@@ -84,6 +84,11 @@ RenderedImage renderImage(const Construction& scene, const Options& options, con
   loop.tileSize = options.tileSize;
   loop.pixelBounds = scene.pixelBounds;
   loop.stop = &ending.stop.flag();
+  if (options.samples) {
+    loop.firstSample = options.samples->first;
+    loop.endSample = options.samples->end;
+    loop.learnsBounds = false;
+  }
   if (options.mostLookups) loop.mostLookups = static_cast<std::uint64_t>(*options.mostLookups);
   Measuring measuring(scene, options, watching);
   if (measuring.isNeeded()) loop.mostGrowth = ConvergenceLog::mostGrowth();

@@ -7,11 +7,14 @@
 #include "base/parallel.h"
 #include "construct/construct.h"
 #include "construct/scene_identity.h"
+#include "fields/learned_bounds.h"
+#include "image/weighted_sums.h"
 #include "main/image_header.h"
 #include "main/messages.h"
 #include "main/output_files.h"
 #include "main/progress.h"
 #include "main/warnings.h"
+#include "media/medium.h"
 #include "scene/param_text.h"
 
 namespace pbrtmedia {
@@ -56,6 +59,29 @@ std::optional<BuiltWorld> build(SceneDescription& description, const Run& run) {
   return BuiltWorld{std::move(*scene), std::move(identity)};
 }
 
+/// Throws SceneError when the scene has no such samples, or parts of them would not be parts of one image.
+void checkRange(const SampleRange& range, const Construction& scene, bool resumes) {
+  std::string option = "--samples ";
+  option.append(std::to_string(range.first)).append(":").append(std::to_string(range.end)).append(": ");
+  const std::int64_t all = scene.sampler->samplesPerPixel();
+  if (range.end > all) {
+    throw SceneError({}, option + "there are " + std::to_string(all) +
+                             " samples of each pixel; --spp gives the number of all, whatever the range");
+  }
+  if (scene.outfile.extension() != ".exr") {
+    throw SceneError({},
+                     option + "the image must be an EXR file, which holds the sums that imgtool merge adds");
+  }
+  if (resumes) return;  // bounds are then what they were
+  for (Medium* medium : scene.scene->learners()) {
+    if (medium->learnedBounds()->isRestored()) continue;
+    throw SceneError({},
+                     option + "medium \"" + std::string(medium->name()) +
+                         "\" learns its bounds while it is rendered, and each range would learn others; let "
+                         "one render learn them with --bounds-cache FILE, and give that to all ranges");
+  }
+}
+
 /// Writes what was rendered, a PNG beside it if that is wanted, and says where the files are: "wrote a.exr".
 /// Sets `status` when an image is not where it should be.
 std::string writeRendered(const std::filesystem::path& outfile, const Image& image, const Options& options,
@@ -66,8 +92,10 @@ std::string writeRendered(const std::filesystem::path& outfile, const Image& ima
     wanted.back().replace_extension(".png");
   }
   std::string written;
+  WriteOptions write = options.write;
+  if (options.samples) write.pixelType = PixelType::Float;  // sums are to stay what they are
   for (const std::filesystem::path& file : wanted) {
-    const SavedImage saved = saveImage(file, image, options.write);
+    const SavedImage saved = saveImage(file, image, write);
     if (!saved.problem.empty()) {
       std::cerr << "pbrt: error: " << saved.problem << "; the image is in \"" << saved.file.string()
                 << "\" instead\n";
@@ -77,6 +105,13 @@ std::string writeRendered(const std::filesystem::path& outfile, const Image& ima
   }
   if (!options.quiet) std::cerr << "wrote " << written << '\n';
   return "wrote " + written;
+}
+
+/// The image of a range, with what other ranges of the render are added to.
+Image asRange(Image image, const SampleRange& range, const Construction& scene) {
+  image.metadata["sampleRange"] = std::to_string(range.first) + ':' + std::to_string(range.end);
+  image.metadata["samplesPlanned"] = std::to_string(scene.sampler->samplesPerPixel());
+  return withSums(image, scene.film->state().sums, scene.film->development());
 }
 
 void fillIn(RenderStatistics& statistics, const RenderedImage& rendered) {
@@ -146,6 +181,10 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
     const std::string boundsWarnings = run.bounds.restore(id.name, *scene.scene);
     if (!options.quiet) std::cerr << boundsWarnings;
   }
+  if (options.samples) {
+    checkRange(*options.samples, scene, run.checkpoints.resumes());
+    statistics.samplesPerPixel = options.samples->end - options.samples->first;
+  }
 
   StopSignal::say(kImageSoFar);
   run.watching.begin(statistics.outfile, statistics.samplesPerPixel);
@@ -158,8 +197,10 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   if (!run.checkpoints.finish(scene, result)) status = kExitBadInput;
   statistics.parts = run.checkpoints.parts();
   const Image image = withHeader(scene.film->develop(), statistics, options, world->identity);
-  const std::string written = writeRendered(scene.outfile, image, options, status);
-  run.bounds.save(id.name, *scene.scene);
+  const std::string written =
+      options.samples ? writeRendered(scene.outfile, asRange(image, *options.samples, scene), options, status)
+                      : writeRendered(scene.outfile, image, options, status);
+  if (!options.samples) run.bounds.save(id.name, *scene.scene);
   statistics.write = writing.elapsed();
   statistics.peakMemory = peakMemoryBytes();
   tell(result, statistics, run, *scene.scene);

@@ -26,8 +26,8 @@ constexpr std::uint64_t kLeastWarmUp = std::uint64_t{1} << 21;
 
 }  // namespace
 
-BoundsLearning::BoundsLearning(const Scene& scene, RenderResult& result)
-    : learners_(scene.learners()), result_(result) {
+BoundsLearning::BoundsLearning(const Scene& scene, bool isFixed, RenderResult& result)
+    : learners_(scene.learners()), isFixed_(isFixed), result_(result) {
   if (!result_.learning.empty()) return;
   for (Medium* learner : learners_) {
     LearningRecord record;
@@ -42,6 +42,7 @@ std::uint64_t BoundsLearning::warmUpBudget() const {
 }
 
 void BoundsLearning::warmUp(std::uint64_t seed, const std::function<bool()>& shouldStop) {
+  if (!isNeeded()) return;
   for (std::size_t i = 0; i < learners_.size(); ++i) {
     if (learners_[i]->learnedBounds()->warmUpPasses() == 0) continue;
     explore(i, hashCombine(seed, kWarmUpTag, static_cast<std::uint64_t>(i)), shouldStop);
@@ -80,6 +81,7 @@ void BoundsLearning::explore(std::size_t learner, std::uint64_t seed,
 }
 
 void BoundsLearning::publish(std::uint64_t samples) {
+  if (!isNeeded()) return;
   for (std::size_t i = 0; i < learners_.size(); ++i) {
     LearnedBounds& bounds = *learners_[i]->learnedBounds();
     LearningRecord& record = result_.learning[i];

@@ -17,11 +17,12 @@ class Scene;
 class BoundsLearning {
  public:
   /// Adds a record for each to `result.learning`, unless there are some from an earlier part of the render.
-  BoundsLearning(const Scene& scene, RenderResult& result);
+  /// `isFixed`: bounds are not learned any more; then nothing else happens.
+  BoundsLearning(const Scene& scene, bool isFixed, RenderResult& result);
 
   /// Then every pass takes one sample of each pixel and publishes what it learned: so pass k sees the same
   /// bounds however samples are grouped otherwise.
-  bool isNeeded() const { return !learners_.empty(); }
+  bool isNeeded() const { return !isFixed_ && !learners_.empty(); }
   /// Explores the bounds that nobody knows anything of (Medium::exploreBounds), within a number of look-ups
   /// that follows the samples to take, and puts what was found into force. `shouldStop` is asked on the way,
   /// on any thread.
@@ -35,6 +36,7 @@ class BoundsLearning {
   std::uint64_t warmUpBudget() const;
 
   std::vector<Medium*> learners_;
+  bool isFixed_;
   RenderResult& result_;
 };
 

@@ -28,7 +28,7 @@ PassLoop::PassLoop(const Scene& scene, const RenderOptions& options, const Plan&
     : options_(options),
       plan_(plan),
       result_(resultAtStart(options, plan)),
-      learning_(scene, result_),
+      learning_(scene, !options.learnsBounds, result_),
       timeBefore_{result_.seconds, result_.cpuSeconds},
       schedule_({.first = result_.completedSamplesPerPixel,
                  .end = plan.samplesPerIndex > 0 ? plan.end : 0,

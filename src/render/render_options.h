@@ -34,6 +34,11 @@ struct RenderOptions {
   /// Samples per pixel instead of the sampler's own count.
   std::optional<std::int64_t> samplesPerPixel = std::nullopt;
   std::int64_t firstSample = 0;  ///< sample indices below it are taken as done elsewhere
+  /// So are those from this on.
+  std::int64_t endSample = std::numeric_limits<std::int64_t>::max();
+  /// False: bounds of media stay as they are (they must have started), so that any part of the samples sees
+  /// what all the others see.
+  bool learnsBounds = true;
   std::optional<Bounds2i> pixelBounds = std::nullopt;  ///< further limits where samples are taken
   int tileSize = 16;                                   ///< pixels; has no effect on the image
   std::optional<int> samplesPerPass = std::nullopt;    ///< has no effect on the image; default: by memory

@@ -44,7 +44,7 @@ class TileLoop {
         samplesPerPixel_(options.samplesPerPixel.value_or(sampler.samplesPerPixel())),
         tiles_(tilesOf(bounds_, std::max(1, options.tileSize))),
         loop_(integrator.scene(), options,
-              {.end = samplesPerPixel_,
+              {.end = std::min(samplesPerPixel_, options.endSample),
                .samplesPerIndex = static_cast<std::uint64_t>(bounds_.area()),
                .pixels = static_cast<std::uint64_t>(bounds_.area()),
                .mostPerPass = mostPerPass()}) {}

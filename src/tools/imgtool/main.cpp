@@ -124,9 +124,12 @@ void addCat(CLI::App& app, CatOptions& o, Run& run) {
 }
 
 void addMerge(CLI::App& app, MergeOptions& o, Run& run) {
-  CLI::App* c = app.add_subcommand("merge", "Average renders of one scene with different seeds");
+  CLI::App* c =
+      app.add_subcommand("merge", "Average renders of one scene with different seeds, or join ranges of one");
   c->footer(
-      "Weights are the samples of each render. Needs the metadata samples, seed and sceneHash that the\n"
+      "Weights are the samples of each render. Ranges (pbrt --samples) are joined to the bits of one render: "
+      "their\n"
+      "sums are added in double. Needs the metadata samples, seed and sceneHash that the\n"
       "renderer writes. Writes 32-bit values unless told otherwise.");
   c->add_option("inputs", o.inputs, "EXR renders")->required();
   c->add_option("-o,--outfile", o.outfile, "image to write")->required();

@@ -5,14 +5,9 @@
 #include <vector>
 
 #include "tools/imgtool/common.h"
+#include "tools/imgtool/same_scene.h"
 
 namespace pbrtmedia {
-
-/// A render to merge. `name` is shown in errors.
-struct NamedImage {
-  std::string name;
-  Image image;
-};
 
 /// The average of renders of one scene, weighted by their metadata "samples"; accumulated in double.
 /// "samples" and "seconds" of the result are sums, "seed" lists all seeds, "command" and "version" those that
@@ -29,7 +24,7 @@ struct MergeOptions {
   WriteOptions write{.pixelType = PixelType::Float};
 };
 
-/// `imgtool merge`. Returns 0.
+/// `imgtool merge`: of ranges of one render (mergeRanges), or of renders with seeds of their own. Returns 0.
 int runMerge(const MergeOptions& options);
 
 }  // namespace pbrtmedia
