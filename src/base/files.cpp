@@ -253,6 +253,20 @@ namespace {
 /// Temporary names are this, the number of the process, "-", a counter and the extension.
 std::string partPrefix(const std::filesystem::path& target) { return '.' + target.stem().string() + ".part"; }
 
+/// The number of the process that made a file of that name; 0: it is no such name.
+pid_t processOf(std::string_view name, std::string_view prefix, std::string_view ending) {
+  if (name.size() < prefix.size() + ending.size() || !name.starts_with(prefix) || !name.ends_with(ending))
+    return 0;
+  const char *const first = name.data() + prefix.size(), *const last =
+                                                             name.data() + name.size() - ending.size();
+  pid_t process = 0;
+  unsigned counter = 0;
+  const auto dash = std::from_chars(first, last, process);
+  if (dash.ec != std::errc() || dash.ptr == last || *dash.ptr != '-' || process <= 0) return 0;
+  const auto rest = std::from_chars(dash.ptr + 1, last, counter);
+  return rest.ec == std::errc() && rest.ptr == last ? process : 0;
+}
+
 }  // namespace
 
 void removeLeftParts(const std::filesystem::path& path) {
@@ -260,16 +274,13 @@ void removeLeftParts(const std::filesystem::path& path) {
   std::error_code error;
   const fs::path target = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
   const fs::path folder = target.parent_path().empty() ? fs::path(".") : target.parent_path();
-  const std::string prefix = partPrefix(target);
+  const std::string written = partPrefix(target), extension = target.extension().string(),
+                    probed = '.' + target.filename().string() + ".part";  // by unwritableReason
   std::vector<fs::path> left;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (!name.starts_with(prefix) || entry->path().extension() != target.extension()) continue;
-    pid_t process = 0;
-    const char* const first = name.data() + prefix.size();
-    const auto [last, problem] = std::from_chars(first, name.data() + name.size(), process);
-    if (problem != std::errc() || *last != '-' || process <= 0) continue;
-    if (::kill(process, 0) != 0 && errno == ESRCH) left.push_back(entry->path());
+    const pid_t process = std::max(processOf(name, written, extension), processOf(name, probed, ""));
+    if (process > 0 && ::kill(process, 0) != 0 && errno == ESRCH) left.push_back(entry->path());
   }
   for (const fs::path& file : left) fs::remove(file, error);
 }

@@ -212,7 +212,8 @@ void Checkpoints::attach(const Construction& scene, RenderOptions& loop) {
   head_.parts.push_back({first, first, {}, threadCount(), buildText()});
   if (start_) loop.start = &*start_;
   if (!options_.checkpoint) return;
-  loop.mostPassSeconds = options_.checkpointInterval / kPassesPerInterval;
+  loop.mostSecondsPerPass =
+      std::min(loop.mostSecondsPerPass, options_.checkpointInterval / kPassesPerInterval);
   loop.afterPass = [this, &scene, then = std::move(loop.afterPass)](const PassEnd& pass) {
     if (isDue() && !write(scene, pass.result)) {
       std::cerr << "\npbrt: warning: " << problem_ << "; the render goes on without a checkpoint\n";

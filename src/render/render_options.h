@@ -49,9 +49,6 @@ struct RenderOptions {
   double mostSecondsPerPass = std::numeric_limits<double>::infinity();
   /// Density look-ups: the render stops after the pass that reaches so many, and passes shrink toward it.
   std::optional<std::uint64_t> mostLookups = std::nullopt;
-  /// Passes get so small that they take about so long, if a sample index takes no longer; has no effect on
-  /// the image.
-  double mostPassSeconds = std::numeric_limits<double>::infinity();
   double timeLimit = std::numeric_limits<double>::infinity();  ///< seconds of rendering
   const std::atomic<bool>* stop = nullptr;                     ///< set to true: stop soon
   /// Called on the calling thread after each whole pass. False: stop. What it takes is no time of rendering.

@@ -32,14 +32,7 @@ std::int64_t Schedule::passSize(std::uint64_t lookups) const {
   if (options_.samplesPerPass) return std::min<std::int64_t>(size, std::max(1, *options_.samplesPerPass));
   // Where the render may be stopped early the first passes are small, so that the whole film gets samples
   // soon.
-  const bool isHurried = options_.mostPassSeconds < std::numeric_limits<double>::infinity();
-  if (isTimed() || options_.stop || isHurried)
-    size = std::min(size, std::int64_t{1} << std::min(passes_, 30));
-  if (isHurried && passes_ > 0) {
-    const double perIndex = (seconds() - lastStart_) / static_cast<double>(lastCount_);
-    if (perIndex * static_cast<double>(size) > options_.mostPassSeconds)
-      size = static_cast<std::int64_t>(options_.mostPassSeconds / perIndex);
-  }
+  if (isTimed() || options_.stop) size = std::min(size, std::int64_t{1} << std::min(passes_, 30));
   const std::int64_t done = plan_.first - options_.firstSample;
   if (options_.mostGrowth)
     size = std::min(size, static_cast<std::int64_t>(*options_.mostGrowth * static_cast<double>(done)));
@@ -61,8 +54,6 @@ std::optional<Pass> Schedule::next(std::uint64_t lookups) {
   if (plan_.first >= plan_.end) return std::nullopt;
   if (reasonToStop(lookups) != EarlyStop::None) return std::nullopt;
   const Pass pass{plan_.first, static_cast<int>(passSize(lookups))};
-  lastStart_ = seconds();
-  lastCount_ = pass.count;
   plan_.first += pass.count;
   ++passes_;
   return pass;

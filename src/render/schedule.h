@@ -51,8 +51,6 @@ class Schedule {
   PhaseTime elsewhere_;
   std::int64_t begin_;  ///< the first sample index of this part of the render
   int passes_ = 0;
-  double lastStart_ = 0;  ///< of the last pass, seconds
-  int lastCount_ = 0;     ///< its sample indices
 };
 
 }  // namespace pbrtmedia

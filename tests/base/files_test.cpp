@@ -188,9 +188,16 @@ TEST(WriteFileAtomically, RemovesWhatKilledProcessesLeft) {
        {alive, ".b" + left.substr(2), dead + "-0.png", dead + ".out", dead, std::string(".a.part-1.out"),
         std::string(".a.partner-0.out"), std::string("a.out")})
     folder.write(stays, "");
+  // What asks whether a file can be written may be killed too.
+  const std::string probe = ".a.out.part" + std::to_string(killed) + "-0000",
+                    aliveProbe = ".a.out.part" + std::to_string(::getpid()) + "-0000";
+  folder.write(probe, "");
+  folder.write(aliveProbe, "");
   removeLeftParts(folder.path() / "a.out");
+  EXPECT_FALSE(folder.has(probe));
+  EXPECT_TRUE(folder.has(aliveProbe));
   EXPECT_FALSE(folder.has(left)) << left;
-  EXPECT_EQ(folder.fileCount(), 8u);
+  EXPECT_EQ(folder.fileCount(), 9u);
   removeLeftParts(folder.path() / "no" / "folder" / "a.out");
 }
 

@@ -347,6 +347,37 @@ TEST_F(Checkpoints, ABoundsCacheIsNotLookedAtByWhoGoesOn) {
   EXPECT_EQ(folder_.read("fog.pfm"), folder_.read("whole.pfm"));
 }
 
+/// Of the last row of a --convergence file: samples, look-ups, rays, and the errors that need no seconds.
+std::string lastErrors(const std::string& csv) {
+  const std::size_t end = csv.rfind("\n# measuring took"), begin = csv.rfind('\n', end - 1) + 1;
+  std::vector<std::string> cells(1);
+  for (const char c : csv.substr(begin, end - begin)) {
+    if (c == ',') {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  std::string text;
+  for (std::size_t i = 2; i < cells.size() && i < 11; ++i) text += cells[i] + ' ';
+  return text;
+}
+
+TEST_F(Checkpoints, HalvesOfTheSamplesGoAlong) {
+  render(fogScene(random(5), ""), "--error 1e-9");
+  ASSERT_EQ(pbrt("--quiet --spp 12 --convergence whole.csv --outfile whole.pfm a.pbrt").status, 0);
+  ASSERT_EQ(pbrt("--quiet --spp 12 --convergence part.csv --resume c.ckpt a.pbrt").status, 0);
+  EXPECT_EQ(folder_.read("fog.pfm"), folder_.read("whole.pfm"));
+  const std::string errors = lastErrors(folder_.read("whole.csv"));
+  EXPECT_EQ(errors.find("12 "), 0u) << folder_.read("whole.csv");
+  EXPECT_EQ(lastErrors(folder_.read("part.csv")), errors);
+  ASSERT_EQ(pbrt("--quiet --spp 12 --resume c.ckpt a.pbrt").status, 0) << "nobody needs to look at them";
+  EXPECT_EQ(folder_.read("fog.pfm"), folder_.read("whole.pfm"));
+  std::filesystem::remove(folder_.path() / "c.ckpt");
+  render(fogScene(random(5), ""));
+  expectRefused("--spp 12 --error 1e-9 a.pbrt", {"does not have the halves of the samples"});
+}
+
 std::string messageOf(const std::filesystem::path& file) {
   try {
     (void)Checkpoint::read(file);

@@ -417,27 +417,6 @@ TEST(RenderLoop, TellsOfAPassThatWasLeftInsideBeforeItIsOnTheFilm) {
   EXPECT_TRUE(asked.interrupted);
 }
 
-TEST(RenderLoop, KeepsPassesAsShortAsIsWanted) {
-  const FakeIntegrator slow([](const RayDifferential&, SampleContext&) {
-    std::this_thread::sleep_for(std::chrono::microseconds(20));
-    return Rgb(1);
-  });
-  std::vector<std::int64_t> ends;
-  const auto note = [&](const PassEnd& end) {
-    ends.push_back(end.result.completedSamplesPerPixel);
-    return true;
-  };
-  // A sample index takes at least 20 us for each of 1107 samples, 22 ms: no two of them within 30 ms.
-  renderFake(slow, {.samplesPerPixel = 6, .mostPassSeconds = .03, .afterPass = note});
-  EXPECT_EQ(ends, (std::vector<std::int64_t>{1, 2, 3, 4, 5, 6}));
-  ends.clear();
-  renderFake(slow, {.samplesPerPixel = 6, .mostPassSeconds = 1e3, .afterPass = note});
-  EXPECT_EQ(ends, (std::vector<std::int64_t>{1, 3, 6})) << "doubled from pass to pass";
-  ends.clear();
-  renderFake(slow, {.samplesPerPixel = 6, .afterPass = note});
-  EXPECT_EQ(ends, (std::vector<std::int64_t>{6}));
-}
-
 TEST(RenderLoop, DoesNotCountTheTimeOfWhoLooksOn) {
   const Outcome out = renderFake(noise(), {.samplesPerPass = 1, .afterPass = [](const PassEnd&) {
                                              std::this_thread::sleep_for(std::chrono::milliseconds(40));
