@@ -113,6 +113,22 @@ TEST(Pictures, AllOfThemAreMadeByTheScript) {
   EXPECT_LT(all, 3'000'000u);
 }
 
+/// Plots and screenshots, docs/plots: each is shown by a page.
+TEST(Pictures, PlotsStandInAPage) {
+  std::string texts;
+  for (const auto& file : std::filesystem::directory_iterator(kSource / "docs")) {
+    if (file.path().extension() == ".md") texts += textOf(file.path());
+  }
+  std::uintmax_t all = 0;
+  for (const auto& file : std::filesystem::directory_iterator(kSource / "docs" / "plots")) {
+    EXPECT_NE(texts.find("(plots/" + file.path().filename().string() + ")"), std::string::npos)
+        << file.path();
+    all += file.file_size();
+  }
+  EXPECT_GT(all, 0u);
+  EXPECT_LT(all, 3'000'000u);
+}
+
 /// The ```pbrt blocks of a page, in order.
 std::vector<std::string> snippetsOf(const std::string& page) {
   std::vector<std::string> snippets;
