@@ -447,7 +447,8 @@ TEST_F(CheckpointFile, RefusesEveryWrongByteAndEveryShorterText) {
 TEST_F(CheckpointFile, OfSeveralBlocksIsTheSame) {
   std::string state;
   Rng rng(1);
-  while (state.size() < 2 * ByteWriter::kBlock + 1000) state += static_cast<char>(rng.uniform() * 255);
+  while (state.size() < 2 * ByteWriter::kBlock + 1000)
+    state += static_cast<char>(static_cast<int>(rng.uniform() * 255) - 128);
   Checkpoint::write(file_, head_, [&](ByteWriter& out) { out.addPlain(state); });
   EXPECT_EQ(Checkpoint::read(file_).state(), state);
   std::string bad = folder_.read("c.ckpt");
