@@ -84,6 +84,13 @@ TEST(ReferenceImages, EachBelongsToASceneAndIsSmall) {
   EXPECT_LT(size, 1'000'000u);
 }
 
+TEST(ReferenceImages, AreMadeByTheScript) {
+  for (const std::string& name : scenes()) {
+    EXPECT_EQ(referenceOf(name).metadata.at("command"),
+              "pbrt --quiet --spp 8192 --seed 1000 --outfile " + name + ".exr " + name + ".pbrt");
+  }
+}
+
 /// The scenes that PBRT-v3 rendered as well, in more pixels.
 struct Twin {
   const char *ours, *theirs;
