@@ -87,6 +87,35 @@ TEST(CombIntegrator, MatchesEndsOfTheWarpedIntegrand) {
   }
 }
 
+/// A thin dense shell where the line begins, and a mean far below the density that stands at its end.
+TEST(CombIntegrator, EndsThatSayNothingOfTheLineDoNoHarm) {
+  const auto shell = [](double s) { return s < .01 ? 1000.0 : .2; };
+  const FunctionLine straight{shell, {{.01, {1000, 0, 1000}}, {10, {.3f, 0, .2f}}}};
+  const auto edge = [](double s) { return s < 9.99 ? 2.0 : 2 * std::pow(100 * (s - 9.99), 31); };
+  const FunctionLine warped{edge, {{9.99, {2, 0, 2}}, {10, {2, 0, 2 / 32.f}}}};
+  for (const auto& [line, warp, truth] :
+       {std::tuple{straight, Warp::Off, 10 + 9.99 * .2}, {warped, Warp::On, 2 * 9.99 + .02 / 32}}) {
+    const double upper = BoundProfile(line).upper();
+    for (const Comb comb : kCombs) {
+      Rng rng(kSeed);
+      RunningStats matched, unmatched;
+      double least = 0;
+      for (int i = 0; i < 200000; ++i) {
+        const double value = integralOf(line, {comb, EndpointMatching::On, warp}, 11, rng);
+        matched.add(value);
+        least = std::min(least, value);
+        unmatched.add(integralOf(line, {comb, EndpointMatching::Off, warp}, 11, rng));
+      }
+      // Half a tooth of both ends for the equidistant comb, half of both for any.
+      const double room = comb == Comb::Equidistant ? upper / 11 : upper;
+      EXPECT_GE(least, -room) << wordFor(comb);
+      EXPECT_LT(matched.variance(), 2 * unmatched.variance() + sqr(upper / 11)) << wordFor(comb);
+      const auto test = test::zTest(matched, truth, kSeed);
+      EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << wordFor(comb) << ": " << test;
+    }
+  }
+}
+
 TEST(CombIntegrator, IsUnbiasedInEveryForm) {
   const double truth = ContractLine::integral();
   for (const Comb comb : kCombs) {

@@ -24,8 +24,11 @@ namespace pbrtmedia {
 /// to s: pdf = 1 / length, or proportional to the super-voxel means if warped. Integral: mean of h over the
 /// teeth, plus (1/2 - mean of z) (h(1) - h(0)) if the end points are matched, which makes a linear h exact
 /// and is Kettunen et al. 2021 (35) for the equidistant comb; the general form serves every comb. Unbiased
-/// for every density; constants are exact, as is any linear h with matched ends. Not warped where a mean is
-/// unknown, nor where an unproven bound of 0 would keep points away from density.
+/// for every density, whatever stands for h(0) and h(1); constants are exact, as is any linear h with matched
+/// ends. Such a one is nowhere above twice its integral, so ends are cut to twice that of the bounds: the
+/// density of a thin shell at an end, or over a super-voxel mean far below it, says nothing of the rest, and
+/// would move single estimates by many times the optical depth. Not warped where a mean is unknown, nor where
+/// an unproven bound of 0 would keep points away from density.
 ///
 /// Look-ups: `teeth` per comb, less those that fall into super-voxels proven empty; two for the end points,
 /// made when the first comb is. In batches; memory of one batch, on the stack, for any number of teeth.
@@ -162,7 +165,9 @@ class CombIntegrator {
     }
     std::array<Density, 2> density;
     lookUp(s, density);
-    return {static_cast<double>(density[0]) * scale[0], static_cast<double>(density[1]) * scale[1]};
+    const double most = 2 * profile_.upper();
+    return {std::min(static_cast<double>(density[0]) * scale[0], most),
+            std::min(static_cast<double>(density[1]) * scale[1], most)};
   }
 
   void lookUp(std::span<const double> s, std::span<Density> density) {
