@@ -7,7 +7,7 @@ import numpy as np
 
 from . import bias
 from .case import Case
-from .intervals import Estimate, Work, log_ratio, mean_estimate, tied_with_best
+from .intervals import Estimate, Work, log_ratio, mean_estimate, student_quantile, tied_with_best
 from .maps import Maps, WorstPixel, make_maps, worst_pixels
 from .metrics import METRICS, Reference, errors
 from .pictures import ImageTool, weighted_mean
@@ -69,6 +69,14 @@ class SettingResult:
 
     def biased(self) -> bool:
         return self.bias is not None and self.bias.seen()
+
+    def ratio(self, axis: str) -> tuple[float, float, float] | None:
+        """Work relative to the best setting's, and the ends of its 95 % interval; all 1 for the best itself. None: not known."""
+        ratio = self.ratios.get(axis)
+        if ratio is None or not math.isfinite(ratio.value):
+            return None
+        width = 0.0 if ratio.error == 0 else min(700.0, student_quantile(ratio.freedom) * ratio.error)
+        return math.exp(ratio.value), math.exp(ratio.value - width), math.exp(ratio.value + width)
 
     def total(self, axis: str) -> float | None:
         return cost_on(axis, self.entry.slices())

@@ -5,7 +5,7 @@ import math
 
 from .analysis import HEAVY_TAIL, MOST_BIAS_Z, SceneResult, SettingResult
 from .case import Case
-from .intervals import Estimate, student_quantile
+from .intervals import Estimate
 from .maps import WorstPixel
 from .plots import style
 from .replay import replay
@@ -24,15 +24,15 @@ def ratio_cell(result: SettingResult, axis: str, unit: str) -> str:
         return cell("–", None)
     low, high = work.interval()
     title = f"variance x {unit} {work.value():.4g}, 95 % interval {low:.4g} to {high:.4g}"
-    if not math.isfinite(ratio.value):
+    relative = result.ratio(axis)
+    if relative is None:
         return cell("no noise" if work.value() == 0 else "–", work.value(), title)
     if ratio.error == 0:
         text, kind = "1 <small>best</small>", "best"
     else:
-        width = min(700.0, student_quantile(ratio.freedom) * ratio.error)
-        ends = f"{math.exp(ratio.value - width):.3g} – {math.exp(ratio.value + width):.3g}"
+        value, least, most = relative
         tied = result.tied.get(axis, False)
-        text, kind = f"{math.exp(ratio.value):.3g} <small>{ends}</small>", "tie" if tied else ""
+        text, kind = f"{value:.3g} <small>{least:.3g} – {most:.3g}</small>", "tie" if tied else ""
         text += " <em>tie</em>" if tied else ""
     return cell(text, work.value(), title, kind)
 

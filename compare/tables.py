@@ -50,6 +50,9 @@ def summary_row(scene: SceneResult, result: SettingResult) -> dict[str, Any]:
         low, high = work.interval() if work else (None, None)
         row.update({f"variance_x_{axis}": work.value() if work else None, f"variance_x_{axis}_low": low, f"variance_x_{axis}_high": high,
                     f"tied_{axis}": result.tied.get(axis)})
+        relative = result.ratio(axis) or (None, None, None)
+        row.update({f"relative_{axis}": relative[0], f"relative_{axis}_low": relative[1], f"relative_{axis}_high": relative[2]})
+    row["biased"] = result.biased()
     row.update(spread("slope", result.slope))
     row.update(spread("slope_alone", result.slope_single))
     assert result.bias is not None

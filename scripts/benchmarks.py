@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""Keeps the tables of docs/benchmarks.md: nobody types a number there.
+"""Keeps the tables of docs/benchmarks.md and docs/comparing.md: nobody types a number there.
 
   benchmarks.py record FILE...   takes the results of a run into docs/benchmarks/: the JSON of layout_bench or estimator_bench
-                                 (--json FILE), summary.csv of pbrt-compare of one scene. Rows that a run did not measure stay
-  benchmarks.py docs             writes the tables of the page from docs/benchmarks/
-  benchmarks.py check            status 1 if the page has other tables
+                                 (--json FILE), summary.csv of pbrt-compare, of one scene or of several. Rows that a run did not measure stay
+  benchmarks.py docs             writes the tables of the pages from docs/benchmarks/
+  benchmarks.py check            status 1 if a page has other tables
 """
 import argparse
 import csv
@@ -15,13 +15,13 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGE = "docs/benchmarks.md"
+PAGES = {"docs/benchmarks.md": ("layouts", "estimators", "renders"), "docs/comparing.md": ("comparison",)}
 DATA = "docs/benchmarks"
-AXES = ("samples", "lookups", "seconds")  # that variance times cost is told of
+AXES = {"samples": "samples", "lookups": "lookups", "seconds": "cpu"}  # that variance times cost is told of; in summary.csv
 
 Rows = list[dict[str, str]]
 # Columns that tell the rows of a file apart.
-KEYS = {"layouts": ("grid", "layout"), "estimators": ("field", "estimator"), "renders": ("setting",)}
+KEYS = {"layouts": ("grid", "layout"), "estimators": ("field", "estimator"), "renders": ("setting",), "comparison": ("scene", "setting")}
 
 
 def number(value: float | None, form: str) -> str:
@@ -47,7 +47,14 @@ def from_estimators(report: dict) -> Rows:
 
 
 def from_renders(rows: Rows) -> Rows:
-    return [{"setting": r["setting"], **{f"variance_x_{a}": number(float(r[f"variance_x_{a}"]), ".4g") for a in AXES}}
+    return [{"setting": r["setting"], **{f"variance_x_{a}": number(float(r[f"variance_x_{c}"]), ".4g") for a, c in AXES.items()}}
+            for r in rows]
+
+
+def from_comparison(rows: Rows) -> Rows:
+    return [{"scene": r["scene"], "setting": r["setting"], "biased": r["biased"],
+             **{f"relative_seconds{end}": number(float(r[f"relative_cpu{end}"]), ".4g") if r[f"relative_cpu{end}"] else ""
+                for end in ("", "_low", "_high")}}
             for r in rows]
 
 
@@ -69,7 +76,9 @@ def record(root: pathlib.Path, path: pathlib.Path) -> str:
         (root / DATA / f"{name}.txt").write_text(machine(report) + "\n")
     else:
         with path.open(newline="") as file:
-            name, new = "renders", from_renders(list(csv.DictReader(file)))
+            rows = list(csv.DictReader(file))
+        several = len({r["scene"] for r in rows}) > 1
+        name, new = ("comparison", from_comparison(rows)) if several else ("renders", from_renders(rows))
     fresh = {tuple(r[k] for k in KEYS[name]): r for r in new}
     merged = [fresh.pop(tuple(r[k] for k in KEYS[name]), r) for r in read(root, name)] + list(fresh.values())
     with (root / DATA / f"{name}.csv").open("w", newline="") as file:
@@ -116,18 +125,32 @@ def renders(rows: Rows) -> str:
     return table(["setting", "samples", "look-ups", "seconds"], [line(r) for r in rows])
 
 
-MAKERS = {"layouts": layouts, "estimators": estimators, "renders": renders}
+def comparison(rows: Rows) -> str:
+    def cell(r: dict[str, str] | None) -> str:
+        if r is None or not r["relative_seconds"]:
+            return ""
+        if r["biased"] == "True":
+            return "biased"
+        value, low, high = (float(r[c]) for c in ("relative_seconds", "relative_seconds_low", "relative_seconds_high"))
+        return "**1**" if low == high else f"{value:.2f} ({low:.2f} – {high:.2f})"
+    by = {(r["setting"], r["scene"]): r for r in rows}
+    scenes = list(dict.fromkeys(r["scene"] for r in rows))
+    settings = sorted({r["setting"] for r in rows})
+    return table(["setting", *scenes], [[f"`{s}`", *(cell(by.get((s, scene))) for scene in scenes)] for s in settings])
 
 
-def page(root: pathlib.Path, text: str) -> str:
+MAKERS = {"layouts": layouts, "estimators": estimators, "renders": renders, "comparison": comparison}
+
+
+def page(root: pathlib.Path, name: str, text: str) -> str:
     """The page with its tables written anew, each between `<!-- table NAME -->` and `<!-- end -->`."""
-    made = {name: make(read(root, name)) for name, make in MAKERS.items()}
-    for name in made:
-        if (said := root / DATA / f"{name}.txt").is_file():
-            made[name] = f"Measured by {said.read_text().strip()}.\n\n" + made[name]
+    made = {table_name: MAKERS[table_name](read(root, table_name)) for table_name in PAGES[name]}
+    for table_name in made:
+        if (said := root / DATA / f"{table_name}.txt").is_file():
+            made[table_name] = f"Measured by {said.read_text().strip()}.\n\n" + made[table_name]
     parts = re.split(r"(?s)(?<=<!-- table )(\w+)( -->\n).*?(?=<!-- end -->)", text)
     if sorted(parts[1::3]) != sorted(made):
-        sys.exit(f"error: {PAGE}: expected the tables {', '.join(made)}, found {', '.join(parts[1::3]) or 'none'}")
+        sys.exit(f"error: {name}: expected the tables {', '.join(made)}, found {', '.join(parts[1::3]) or 'none'}")
     for i in range(1, len(parts), 3):
         parts[i + 1] += made[parts[i]]
     return "".join(parts)
@@ -143,14 +166,16 @@ def main() -> int:
     if options.command == "record":
         for path in options.files:
             print(f"{path}: results of {DATA}/{record(ROOT, path)}.csv")
-    text = (ROOT / PAGE).read_text()
-    made = page(ROOT, text)
-    if options.command == "check":
-        if made != text:
-            print(f"{PAGE}: its tables are not what scripts/benchmarks.py docs writes")
-        return int(made != text)
-    (ROOT / PAGE).write_text(made)
-    return 0
+    status = 0
+    for name in PAGES:
+        text = (ROOT / name).read_text()
+        made = page(ROOT, name, text)
+        if options.command != "check":
+            (ROOT / name).write_text(made)
+        elif made != text:
+            print(f"{name}: its tables are not what scripts/benchmarks.py docs writes")
+            status = 1
+    return status
 
 
 if __name__ == "__main__":

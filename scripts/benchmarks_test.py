@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""The tables of docs/benchmarks.md must follow from recorded results."""
+"""The tables of docs/benchmarks.md and docs/comparing.md must follow from recorded results."""
 import json
 import pathlib
 import shutil
@@ -10,26 +10,31 @@ import unittest
 import benchmarks
 
 
+PAGE, COMPARING = benchmarks.PAGES
+
+
 class Benchmarks(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.root = pathlib.Path(self.folder.name)
         shutil.copytree(benchmarks.ROOT / benchmarks.DATA, self.root / benchmarks.DATA)
-        self.text = (benchmarks.ROOT / benchmarks.PAGE).read_text()
+        self.text = (benchmarks.ROOT / PAGE).read_text()
 
     def record(self, name: str, text: str) -> str:
         path = self.root / name
         path.write_text(text)
         benchmarks.record(self.root, path)
-        return benchmarks.page(self.root, self.text)
+        return benchmarks.page(self.root, PAGE, self.text)
 
     def test_the_page_is_what_the_command_writes(self):
-        self.assertEqual(benchmarks.page(self.root, self.text), self.text)
+        self.assertEqual(benchmarks.page(self.root, PAGE, self.text), self.text)
+        comparing = (benchmarks.ROOT / COMPARING).read_text()
+        self.assertEqual(benchmarks.page(self.root, COMPARING, comparing), comparing)
 
     def test_a_typed_number_is_seen(self):
         row = next(line for line in self.text.splitlines() if line.startswith("| `regular`"))
-        self.assertNotEqual(benchmarks.page(self.root, self.text.replace(row, row.replace("1", "2"))),
+        self.assertNotEqual(benchmarks.page(self.root, PAGE, self.text.replace(row, row.replace("1", "2"))),
                             self.text.replace(row, row.replace("1", "2")))
 
     def test_new_results_replace_theirs_and_no_others(self):
@@ -41,10 +46,20 @@ class Benchmarks(unittest.TestCase):
         self.assertEqual(page.count("\n"), self.text.count("\n"))
 
     def test_work_is_relative_to_the_first_setting(self):
-        page = self.record("summary.csv", "scene,setting,variance_x_samples,variance_x_lookups,variance_x_seconds\n"
+        page = self.record("summary.csv", "scene,setting,variance_x_samples,variance_x_lookups,variance_x_cpu\n"
                                           "smoke,ratio,2,8,5\nsmoke,mine,1,2,20\n")
         self.assertIn("| `ratio` | 1.00 | 1.00 | 1.00 |\n", page)
         self.assertIn("| `mine` | 0.50 | 0.25 | 4.00 |\n", page)
+
+    def test_several_scenes_are_columns_and_bias_is_no_number(self):
+        ends = "relative_cpu,relative_cpu_low,relative_cpu_high"
+        path = self.root / "summary.csv"
+        path.write_text(f"scene,setting,biased,{ends}\nfog,a,False,1,1,1\nfog,b,False,2.345,2,3\nfire,a,True,.5,.4,.6\nfire,b,False,1,1,1\n")
+        (self.root / benchmarks.DATA / "comparison.csv").write_text("scene,setting\n")
+        self.assertEqual(benchmarks.record(self.root, path), "comparison")
+        page = benchmarks.page(self.root, COMPARING, "<!-- table comparison -->\n<!-- end -->\n")
+        self.assertIn("| setting | fog | fire |\n", page)
+        self.assertIn("| `a` | **1** | biased |\n| `b` | 2.35 (2.00 – 3.00) | **1** |\n", page)
 
 
 if __name__ == "__main__":

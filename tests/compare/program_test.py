@@ -8,6 +8,7 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -18,6 +19,9 @@ import numpy as np
 from compare.pictures import ImageTool
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "scripts"))
+import benchmarks  # noqa: E402
+
 BIN = Path(os.environ["PBRT_MEDIA_BIN"])
 SCENE = """Integrator "volpath" "integer maxdepth" 8
 Film "image" "integer xresolution" 12 "integer yresolution" 10
@@ -137,7 +141,11 @@ class Program(WithProgram):
         done = self.run_program("tiny.pbrt", "--transmittance", "ratio,unbiased-ray-marching", "--freeflight", "delta", "--equal", "samples", "--budget", "64",
                                 "--quick")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual({r["setting"] for r in rows(self.folder / "tiny-compare" / "summary.csv")}, {"ratio", "unbiased-ray-marching"})
+        summary = rows(self.folder / "tiny-compare" / "summary.csv")
+        self.assertEqual({r["setting"] for r in summary}, {"ratio", "unbiased-ray-marching"})
+        # What scripts/benchmarks.py makes tables of.
+        self.assertTrue(all(float(r["variance_x_seconds"]) > 0 for r in benchmarks.from_renders(summary)))
+        self.assertEqual([r["relative_seconds"] for r in benchmarks.from_comparison(summary)].count("1"), 1)
         self.assertRegex(done.stdout, r"(?m)^setting +variance x seconds")
 
     def test_a_scene_of_two_worlds_is_refused(self):
