@@ -26,9 +26,25 @@ class PixelStream {
   /// Null: not known.
   PixelSample* sample() const { return sample_; }
 
+  class Copy;
+
  private:
   Rng* rng_;
   PixelSample* sample_ = nullptr;
+};
+
+/// All that a stream is about to draw, to be drawn again.
+class PixelStream::Copy {
+ public:
+  explicit Copy(PixelStream of) : rng_(of.rng()), isKnown_(of.sample() != nullptr) {
+    if (isKnown_) sample_ = *of.sample();
+  }
+  PixelStream stream() { return isKnown_ ? PixelStream(rng_, sample_) : PixelStream(rng_); }
+
+ private:
+  Rng rng_;
+  PixelSample sample_;
+  bool isKnown_;
 };
 
 }  // namespace pbrtmedia

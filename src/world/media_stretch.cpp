@@ -38,7 +38,7 @@ MediumFlight MediaStretch::sampleFreeFlight(Rgb throughput, PixelStream random,
 MediumFlight MediaStretch::nearestOfFlights(Rgb throughput, PixelStream random,
                                             RenderCounters& counters) const {
   struct Flight {
-    Rng start;
+    PixelStream::Copy start;
     Rgb passed;
     double tEnd;
   };
@@ -50,7 +50,7 @@ MediumFlight MediaStretch::nearestOfFlights(Rgb throughput, PixelStream random,
   std::size_t winner = state_->activeCount();
   for (std::size_t i = 0; i < state_->activeCount(); ++i) {
     const PlacedMedium m = state_->active(i);
-    const Rng start = random.rng();
+    const PixelStream::Copy start(random);
     const FreeFlight f = m.medium->sampleFreeFlight(rest.segmentIn(m), throughput, random, counters);
     flights.push_back({start, f.weight, rest.tMax_});
     if (!f.collided) continue;
@@ -66,8 +66,8 @@ MediumFlight MediaStretch::nearestOfFlights(Rgb throughput, PixelStream random,
     }
     const PlacedMedium m = state_->active(i);
     if (flights[i].tEnd != rest.tMax_) {
-      Rng replay = flights[i].start;
-      const FreeFlight f = m.medium->sampleFreeFlight(rest.segmentIn(m), throughput, replay, counters);
+      const FreeFlight f =
+          m.medium->sampleFreeFlight(rest.segmentIn(m), throughput, flights[i].start.stream(), counters);
       // It may collide only by rounding at the very end; then it got there all the same.
       flights[i].passed = f.collided ? Rgb(1.0f) : f.weight;
     }
