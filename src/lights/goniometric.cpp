@@ -19,7 +19,11 @@ GoniometricLight::GoniometricLight(const Transform& worldFromLight, const Params
     : directions_(worldFromLight, "goniometric"),
       position_(worldFromLight.point(Point3f{0, 0, 0})),
       intensity_(params.intensity) {
-  if (params.map) map_.emplace(*params.map, intensity_);
+  if (params.map) map_.emplace(*params.map);
+}
+
+void GoniometricLight::prepareEmission() {
+  if (map_) map_->prepareSampling(intensity_);
 }
 
 LightSample GoniometricLight::sample(Point3f reference, Point2f) const {

@@ -26,6 +26,7 @@ class GoniometricLight final : public Light {
   std::optional<Point3f> deltaPosition() const override { return position_; }
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
+  void prepareEmission() override;
   LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
   LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   Rgb power() const override;

@@ -9,7 +9,7 @@ namespace pbrtmedia {
 
 InfiniteLight::InfiniteLight(const Transform& worldFromLight, const Params& params)
     : Light(params.samples), directions_(worldFromLight, "infinite"), radiance_(params.radiance) {
-  if (params.map) map_.emplace(*params.map, radiance_);
+  if (params.map) map_.emplace(*params.map).prepareSampling(radiance_);
 }
 
 void InfiniteLight::preprocess(const Bounds3f& sceneBounds) { scene_ = BoundingSphere(sceneBounds); }

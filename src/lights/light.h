@@ -63,14 +63,17 @@ class Light {
   int sampleCount() const { return sampleCount_; }
   /// Called once with the scene's bounds before rendering.
   virtual void preprocess(const Bounds3f& sceneBounds) { (void)sceneBounds; }
+  /// Makes the tables that only `sampleLe` and `pdfLe` need. Called once before them, by whoever traces from
+  /// lights: other renders neither wait for them nor hold them.
+  virtual void prepareEmission() {}
 
   virtual LightSample sample(Point3f reference, Point2f u) const = 0;
   /// Solid-angle density of `sample(reference, .)` for unit `wi`. `hit`: the light's own surface point found
   /// along wi (area lights), null for lights at infinity. 0 for delta lights.
   virtual float pdf(Point3f reference, Vector3f wi, const SurfaceInteraction* hit) const = 0;
-  /// A ray from the light into the scene. `uPosition`, `uDirection`: uniform in the unit square. Found by
-  /// position and direction together, not toward a point: what `sample` sees of a light is sent out here,
-  /// also of a light that is split. None of light that a medium emits.
+  /// After `prepareEmission`. A ray from the light into the scene. `uPosition`, `uDirection`: uniform in the
+  /// unit square. Found by position and direction together, not toward a point: what `sample` sees of a light
+  /// is sent out here, also of a light that is split. None of light that a medium emits.
   virtual LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const {
     (void)uPosition, (void)uDirection, (void)time;
     return {};

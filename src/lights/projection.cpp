@@ -34,6 +34,9 @@ ProjectionLight::ProjectionLight(const Transform& worldFromLight, const Params& 
     const float aspect = map_->aspect();
     halfWindow_ = aspect > 1 ? Vector2f{aspect, 1} : Vector2f{1, 1 / aspect};
   }
+}
+
+void ProjectionLight::prepareEmission() {
   // A texel has the solid angle cos³θ times its area on the screen plane.
   const std::size_t columns = map_ ? static_cast<std::size_t>(map_->width()) : kCellsWithoutMap,
                     rows = map_ ? static_cast<std::size_t>(map_->height()) : kCellsWithoutMap;

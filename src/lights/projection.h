@@ -31,6 +31,7 @@ class ProjectionLight final : public Light {
   void clipToLit(Vec3d o, Vec3d d, double& tMin, double& tMax) const override;
   LightSample sample(Point3f reference, Point2f u) const override;
   float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
+  void prepareEmission() override;
   LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
   LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   Rgb power() const override;
@@ -53,7 +54,8 @@ class ProjectionLight final : public Light {
   float tanHalfFov_;
   Vector2f halfWindow_{1, 1};  ///< screen units, in x and y
   std::optional<LightMap> map_;
-  Distribution2D cells_;  ///< of the light through parts of the window: the texels, if there is a map
+  Distribution2D cells_;  ///< of the light through parts of the window: the texels, if there is a map. After
+                          ///< prepareEmission
 };
 
 }  // namespace pbrtmedia

@@ -14,7 +14,7 @@ Point2f latLong(Vector3f w) {
   return {std::min(u < 0 ? u + 1 : u, kOneMinusEpsilon), std::atan2(std::hypot(w.x, w.y), w.z) * kInvPi};
 }
 
-SphereMap::SphereMap(const Image& image, Rgb factor) : map_(image) {
+void SphereMap::prepareSampling(Rgb factor) {
   const auto width = static_cast<std::size_t>(map_.width()), height = static_cast<std::size_t>(map_.height());
   sinSquaredHalf_.resize(height + 1);
   for (std::size_t y = 0; y <= height; ++y) {

@@ -22,8 +22,10 @@ Point2f latLong(Vector3f w);
 /// there, also at the poles. Immutable, thread-safe.
 class SphereMap {
  public:
-  /// Directions are sampled by `factor` times the picture. Errors: see LightMap.
-  SphereMap(const Image& image, Rgb factor);
+  /// Errors: see LightMap.
+  explicit SphereMap(const Image& image) : map_(image) {}
+  /// Before `sample` and `pdf`: directions are sampled by `factor` times the picture.
+  void prepareSampling(Rgb factor);
 
   struct Sample {
     Vector3f w;  ///< unit

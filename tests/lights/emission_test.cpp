@@ -154,7 +154,10 @@ std::vector<EmissionCase> emissionCases() {
   addPointLights(cases);
   addLightsAtInfinity(cases);
   addAreaLights(cases);
-  for (const EmissionCase& c : cases) c.light->preprocess(kSceneBounds);
+  for (const EmissionCase& c : cases) {
+    c.light->preprocess(kSceneBounds);
+    c.light->prepareEmission();
+  }
   return cases;
 }
 
