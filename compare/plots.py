@@ -14,7 +14,7 @@ matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "pbrt-compar
 from matplotlib.axes import Axes  # noqa: E402
 from matplotlib.axis import Axis  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator  # noqa: E402
+from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator  # noqa: E402
 
 from .analysis import CurvePoint, SceneResult, SettingResult  # noqa: E402
 from .intervals import Estimate  # noqa: E402
@@ -66,17 +66,20 @@ def tick_text(value: float, powers: bool) -> str:
     exponent = math.floor(math.log10(value) + 1e-9)
     if -3 < exponent < 4 and not powers:
         return f"{value:g}"
-    factor = round(value / 10.0**exponent, 1)
+    factor = float(f"{value / 10.0**exponent:.4g}")
     return ("" if factor == 1 else f"{factor:g}·") + "10" + str(exponent).translate(SUPERSCRIPTS)
 
 
 def plain_ticks(line: Axis, low: float, high: float) -> None:
-    """Powers of ten, on short axes 2 and 5 of them too. matplotlib's own take most of the time of a drawing."""
+    """Powers of ten, on short axes 2 and 5 of them too, on shorter ones even steps. matplotlib's own take most of the time of a drawing."""
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     span = math.log10(high / low)
     factors = (1,) if span > 2.5 else (1, 2, 5) if span > 0.7 else (1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9)
     step = max(1, round(span / 8))
-    line.set_major_locator(FixedLocator([f * 10.0**d for d in decades for f in factors if d % step == 0 and low <= f * 10.0**d <= high]))
+    ticks = [f * 10.0**d for d in decades for f in factors if d % step == 0 and low <= f * 10.0**d <= high]
+    if len(ticks) < 2:
+        ticks = [t for t in MaxNLocator(4).tick_values(low, high) if low <= t <= high]
+    line.set_major_locator(FixedLocator(ticks))
     line.set_minor_locator(NullLocator())
     line.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value, len(factors) == 1)))
 
@@ -90,7 +93,8 @@ def cut_off_outliers(axes: Axes, scene: SceneResult, axis: str, metric: str) -> 
     top = 100 * values[int(0.9 * (len(values) - 1))]
     if values[-1] > top:
         axes.set_ylim(top=top)
-        axes.annotate(f"points up to {tick_text(values[-1], True)} are cut off", (0.995, 0.985), xycoords="axes fraction", ha="right", va="top",
+        highest = tick_text(float(f"{values[-1]:.1g}"), True)
+        axes.annotate(f"points up to {highest} are cut off", (0.995, 0.985), xycoords="axes fraction", ha="right", va="top",
                       fontsize=7.5, color="#b3261e")
 
 
@@ -108,7 +112,7 @@ def draw_guides(axes: Axes, metric: str) -> None:
 def error_figure(scene: SceneResult, order: dict[str, int], axis: str, metric: str) -> Figure:
     """All settings of a scene; `order` gives each its colour, in all plots the same."""
     figure = Figure(figsize=(8.6, 4.9))
-    axes = figure.add_axes((0.09, 0.11, 0.60, 0.81))
+    axes = figure.add_axes((0.12, 0.11, 0.57, 0.81))
     axes.set_xscale("log")
     axes.set_yscale("log")
     for result in scene.results:
