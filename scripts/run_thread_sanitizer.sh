@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-2-Clause
 # run_thread_sanitizer.sh <build folder>: what runs in several threads, built by the preset tsan: loops, film, learned bounds,
-# tables filled while rendering, the render loop, and whole renders of a few scenes. The first race ends it with status 1.
+# tables filled while rendering, the render loop, who watches a render, and whole renders of a few scenes. The first race ends it
+# with status 1.
 #   run_thread_sanitizer.sh --targets    what must be built
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -13,6 +14,7 @@ test_fields LearnedBounds.*:GridSamples.*:SuperVoxels.*
 test_lighting SpatialLightSelector.*
 test_accelerators Accelerator.*:Instances.*:UserGeometry.*
 test_render_loop RenderLoop.*
+test_display *
 '
 if [ "$1" = --targets ]; then
   echo pbrt
