@@ -135,10 +135,10 @@ def log_ratio(first: Work, second: Work) -> Estimate:
 
 
 def tied_with_best(works: list[Work]) -> tuple[int, list[bool]]:
-    """The index of the smallest work, and which of the others cannot be told from it at 95 %, all comparisons together
-    (Bonferroni)."""
+    """The index of the smallest work, and which of the others cannot be told from it at 95 %. Bonferroni over all pairs of
+    settings, as the same numbers say which is the best."""
     best = min(range(len(works)), key=lambda i: works[i].value())
-    level = 1 - (1 - LEVEL) / max(1, len(works) - 1)
+    level = 1 - (1 - LEVEL) / max(1, len(works) * (len(works) - 1) // 2)
     ties = []
     for work in works:
         difference = log_ratio(work, works[best])

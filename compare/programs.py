@@ -85,7 +85,7 @@ class Renderer:
             raise CaseError(f'setting "{setting.name}": a rewritten scene comes on standard input: leave {{scene}} out of the command')
         self.program = found_program(shlex.split(setting.command)[0] if setting.command else setting.program or str(bin_folder / "pbrt"))
         self.scene_hash = scene_hash(self.text, self.folder)
-        identity = [self.scene_hash, file_hash(self.program), setting.medium, setting.command, *case.options, *scene.options, *setting.options]
+        identity = [self.scene_hash, file_hash(self.program), setting.medium, setting.command, str(case.threads), *case.options, *scene.options, *setting.options]
         self.key = hashlib.sha256("\0".join(identity).encode("utf-8", "surrogateescape")).hexdigest()[:16]
 
     def scene_file(self, seed: int, spp: int) -> Path:

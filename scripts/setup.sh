@@ -31,6 +31,7 @@ install_packages() {
   say "installing ${#missing[@]} packages: ${missing[*]}"
   "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >&2
   "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" >&2
+  rm -f "$root"/build/*/.options  # what was configured without them may find them now
 }
 
 # configure_preset <preset> <cmake options...>: once, and again when the options changed (ninja itself notices changed

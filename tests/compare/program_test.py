@@ -148,6 +148,15 @@ class Program(WithProgram):
         self.assertEqual([r["relative_seconds"] for r in benchmarks.from_comparison(summary)].count("1"), 1)
         self.assertRegex(done.stdout, r"(?m)^setting +variance x seconds")
 
+    def test_seconds_of_other_threads_are_measured_anew(self):
+        def records(threads: str) -> int:
+            done = self.run_program("tiny.pbrt", "--transmittance", "ratio", "--equal", "samples", "--budget", "16", "--quick", "--threads", threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return len(list((self.folder / "tiny-compare" / "slices").glob("*.json")))
+        once = records("1")
+        self.assertEqual(records("1"), once)
+        self.assertEqual(records("2"), 2 * once)
+
     def test_a_scene_of_two_worlds_is_refused(self):
         world = SCENE[SCENE.index("WorldBegin"):]
         (self.folder / "two.pbrt").write_text(SCENE + world)
