@@ -134,7 +134,7 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
   made.outfile = film.outfile;
   made.camera = readCamera(scene, film.settings.resolution, diagnostics);
   made.sampler = readSampler(scene, options, diagnostics);
-  const std::optional<IntegratorPlan> integrator = readIntegrator(scene, diagnostics);
+  const std::optional<IntegratorPlan> integrator = readIntegrator(scene, options, diagnostics);
   readAccelerator(scene.accelerator, diagnostics);
 
   Textures textures(scene, diagnostics);
@@ -167,7 +167,8 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
   }
   if (diagnostics.errorCount() > errorsBefore) return std::nullopt;
 
-  if (made.scene->lights().empty() && !made.scene->hasVisibleEmitters() && !mediaEmit) {
+  if (integrator->needsLights && made.scene->lights().empty() && !made.scene->hasVisibleEmitters() &&
+      !mediaEmit) {
     diagnostics.warning(scene.worldEnd, "the scene has no lights: the image will be black");
   }
   if (!integrator->rendersMedia && world.usesMedia()) {

@@ -12,6 +12,7 @@
 #include "construct/enum_parameter.h"
 #include "construct/plugins.h"
 #include "construct/tolerance.h"
+#include "integrators/ambientocclusion/ambient_occlusion.h"
 #include "integrators/direct/direct_lighting.h"
 #include "integrators/direct/whitted.h"
 #include "integrators/path/path.h"
@@ -22,9 +23,11 @@
 namespace pbrtmedia {
 namespace {
 
-using ReadIntegrator = IntegratorPlan (*)(ParamReader&);
+using ReadIntegrator = IntegratorPlan (*)(ParamReader&, const ConstructOptions&);
 
 constexpr int kMaxDepth = 1 << 30;
+/// Of one camera ray; all of them are held in memory.
+constexpr int kMaxOcclusionSamples = 1 << 20;
 
 PathParams readPathParams(ParamReader& in) {
   PathParams p;
@@ -42,7 +45,7 @@ std::unique_ptr<const LightSelector> selectorFor(const std::vector<const Light*>
   return makeLightSelector(lightStrategyOfName(p.lightSampleStrategy).value(), lights, scene.bounds());
 }
 
-IntegratorPlan readPath(ParamReader& in) {
+IntegratorPlan readPath(ParamReader& in, const ConstructOptions&) {
   const PathParams p = readPathParams(in);
   return {[=](const Scene& scene, const CameraMedium&) -> std::unique_ptr<Integrator> {
             return std::make_unique<PathIntegrator>(scene, p, selectorFor(scene.lights(), scene, p));
@@ -50,7 +53,7 @@ IntegratorPlan readPath(ParamReader& in) {
           false, std::nullopt};
 }
 
-IntegratorPlan readVolPath(ParamReader& in) {
+IntegratorPlan readVolPath(ParamReader& in, const ConstructOptions&) {
   PathParams p = readPathParams(in);
   const std::vector<std::string_view> samplings = alternativeNames<MediumLightSampling>();
   const std::size_t sampling =
@@ -65,7 +68,7 @@ IntegratorPlan readVolPath(ParamReader& in) {
           true, std::nullopt};
 }
 
-IntegratorPlan readDirectLighting(ParamReader& in) {
+IntegratorPlan readDirectLighting(ParamReader& in, const ConstructOptions&) {
   DirectLightingParams p;
   p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   constexpr std::array<std::string_view, 2> kStrategies = {"all", "one"};
@@ -76,7 +79,7 @@ IntegratorPlan readDirectLighting(ParamReader& in) {
           false, std::nullopt};
 }
 
-IntegratorPlan readWhitted(ParamReader& in) {
+IntegratorPlan readWhitted(ParamReader& in, const ConstructOptions&) {
   WhittedParams p;
   p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   return {[=](const Scene& scene, const CameraMedium&) -> std::unique_ptr<Integrator> {
@@ -85,10 +88,24 @@ IntegratorPlan readWhitted(ParamReader& in) {
           false, std::nullopt};
 }
 
-constexpr std::array<Plugin<ReadIntegrator>, 4> kIntegrators = {{{"path", readPath},
-                                                                 {"volpath", readVolPath},
-                                                                 {"directlighting", readDirectLighting},
-                                                                 {"whitted", readWhitted}}};
+IntegratorPlan readAmbientOcclusion(ParamReader& in, const ConstructOptions& options) {
+  AmbientOcclusionParams p;
+  p.cosineSampling = in.findBool("cossample", p.cosineSampling);
+  p.samples = findIntWithin(in, "nsamples", p.samples, Range::closed(1, kMaxOcclusionSamples));
+  if (options.quick) p.samples = 1;
+  return {.make = [=](const Scene& scene, const CameraMedium&) -> std::unique_ptr<Integrator> {
+            return std::make_unique<AmbientOcclusionIntegrator>(scene, p);
+          },
+          .needsLights = false};
+}
+
+constexpr auto kIntegrators = std::to_array<Plugin<ReadIntegrator>>({
+    {"path", readPath},
+    {"volpath", readVolPath},
+    {"directlighting", readDirectLighting},
+    {"whitted", readWhitted},
+    {"ambientocclusion", readAmbientOcclusion},
+});
 
 /// An integrator of PBRT-v3 that is not here, and the one that converges to the same image.
 struct Substitute {
@@ -145,20 +162,21 @@ std::optional<Bounds2i> readPixelBounds(ParamReader& in) {
 
 }  // namespace
 
-std::optional<IntegratorPlan> readIntegrator(SceneDescription& scene, Diagnostics& diagnostics) {
+std::optional<IntegratorPlan> readIntegrator(SceneDescription& scene, const ConstructOptions& options,
+                                             Diagnostics& diagnostics) {
   Entity& entity = scene.integrator;
   if (!entity.given) entity.type = "path";
   const Substitute* const instead = substitute(entity, diagnostics);
   const auto* plugin = findPlugin<ReadIntegrator>(kIntegrators, entity, "Integrator", "", diagnostics);
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(entity, diagnostics, "Integrator \"" + entity.type + "\"");
-  std::vector<std::string_view> pbrtNames = {"maxdepth", "rrthreshold", "lightsamplestrategy", "strategy",
-                                             "pixelbounds"};
+  std::vector<std::string_view> pbrtNames = {
+      "maxdepth", "rrthreshold", "lightsamplestrategy", "strategy", "pixelbounds", "nsamples", "cossample"};
   if (instead != nullptr) {
     for (const auto& [kind, name] : instead->parameters) pbrtNames.push_back(name);
   }
   in.setPbrtNames(std::move(pbrtNames));
-  IntegratorPlan plan = plugin->read(in);
+  IntegratorPlan plan = plugin->read(in, options);
   plan.pixelBounds = readPixelBounds(in);
   if (instead != nullptr) {
     for (const auto& [kind, name] : instead->parameters) in.has(kind, name);

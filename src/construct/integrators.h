@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/bounds.h"
+#include "construct/construct_options.h"
 #include "render/integrator.h"
 #include "scene/description.h"
 #include "world/camera_medium.h"
@@ -17,10 +18,12 @@ namespace pbrtmedia {
 struct IntegratorPlan {
   std::function<std::unique_ptr<Integrator>(const Scene&, CameraMedium)> make;
   bool rendersMedia = false;
-  std::optional<Bounds2i> pixelBounds;
+  std::optional<Bounds2i> pixelBounds{};
+  bool needsLights = true;  ///< without them the image is black
 };
 
 /// Reads Integrator. Nothing for an unknown type.
-std::optional<IntegratorPlan> readIntegrator(SceneDescription& scene, Diagnostics& diagnostics);
+std::optional<IntegratorPlan> readIntegrator(SceneDescription& scene, const ConstructOptions& options,
+                                             Diagnostics& diagnostics);
 
 }  // namespace pbrtmedia

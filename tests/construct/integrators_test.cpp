@@ -58,6 +58,10 @@ TEST(ConstructIntegrator, SaysWhatIsWrongAndWhere) {
         "unknown strategy \"each\"; known: ", "", kTolerated},
        {"Integrator \"whitted\" \"float rrthreshold\" 1", "unknown parameter \"rrthreshold\"", "",
         kTolerated},
+       {"Integrator \"ambientocclusion\" \"integer nsamples\" 0", "\"nsamples\": found 0, expected in [1, ",
+        "", kTolerated},
+       {"Integrator \"ambientocclusion\" \"integer maxdepth\" 5", "unknown parameter \"maxdepth\"", "",
+        kTolerated},
        {"Integrator \"path\" \"integer pixelbounds\" [ 0 1 ]", "found 2 numbers, expected 4: x0 x1 y0 y1", "",
         kTolerated},
        {"Integrator \"path\" \"integer pixelbounds\" [ 2 1 0 4 ]", "the rectangle holds no pixel", ""},
@@ -75,12 +79,37 @@ TEST(ConstructIntegrator, SaysThatOnlyVolpathRendersMedia) {
       "\"infinite\" "
       "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" MediumInterface \"m\" \"\" Shape \"sphere\" "
       "WorldEnd";
-  for (const std::string type : {"path", "directlighting", "whitted"}) {
+  for (const std::string type : {"path", "directlighting", "whitted", "ambientocclusion"}) {
     const Attempt a = attempt("Integrator \"" + type + '"' + world);
     EXPECT_TRUE(a.warns("does not render participating media")) << a.messages();
     EXPECT_EQ(placeOf(a.find(Severity::Warning, "media")), "t.pbrt:1:1");
   }
   EXPECT_TRUE(attempt("Integrator \"volpath\"" + world).isSilent());
+}
+
+/// A ball on a floor, without lights.
+Attempt openWith(const std::string& integrator, const ConstructOptions& options = {}) {
+  return attempt(
+      integrator +
+          " Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 24 Sampler \"random\" "
+          "LookAt 0 -4 1  0 0 0  0 0 1 Camera \"perspective\" WorldBegin Shape \"sphere\" "
+          "Translate 0 0 -1 Shape \"disk\" \"float radius\" 9 WorldEnd",
+      {.build = options});
+}
+
+TEST(ConstructIntegrator, AmbientOcclusionHasItsParametersAndNeedsNoLights) {
+  const std::string occlusion = "Integrator \"ambientocclusion\"";
+  const auto with = [](const std::string& integrator) { return openWith(integrator); };
+  EXPECT_TRUE(openWith(occlusion).isSilent()) << openWith(occlusion).messages();
+  EXPECT_TRUE(openWith("Integrator \"path\"").warns("no lights"));
+  expectEffects({{occlusion, occlusion + " \"integer nsamples\" 3"},
+                 {occlusion, occlusion + " \"bool cossample\" \"false\""},
+                 {occlusion, occlusion + " \"integer pixelbounds\" [ 1 3 1 4 ]"}},
+                with, rendered);
+  expectSame({{occlusion, occlusion + " \"integer nsamples\" 64 \"bool cossample\" \"true\""}}, with,
+             rendered);
+  EXPECT_EQ(rendered(openWith(occlusion, {.quick = true})),
+            rendered(openWith(occlusion + " \"integer nsamples\" 1", {.quick = true})));
 }
 
 TEST(ConstructAccelerator, ChecksWhatHasNoEffect) {
