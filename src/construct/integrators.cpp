@@ -39,8 +39,8 @@ PathParams readPathParams(ParamReader& in) {
 }
 
 /// Null where there are no lights.
-std::unique_ptr<const LightSelector> selectorFor(const std::vector<const Light*>& lights, const Scene& scene,
-                                                 const PathParams& p) {
+std::unique_ptr<const LightSelector> selectorFor(std::span<const Illuminant* const> lights,
+                                                 const Scene& scene, const PathParams& p) {
   if (lights.empty()) return nullptr;
   return makeLightSelector(lightStrategyOfName(p.lightSampleStrategy).value(), lights, scene.bounds());
 }
@@ -48,7 +48,8 @@ std::unique_ptr<const LightSelector> selectorFor(const std::vector<const Light*>
 IntegratorPlan readPath(ParamReader& in, const ConstructOptions&) {
   const PathParams p = readPathParams(in);
   return {[=](const Scene& scene, const CameraMedium&) -> std::unique_ptr<Integrator> {
-            return std::make_unique<PathIntegrator>(scene, p, selectorFor(scene.lights(), scene, p));
+            const std::span lights = std::span(scene.illuminants()).first(scene.lights().size());
+            return std::make_unique<PathIntegrator>(scene, p, selectorFor(lights, scene, p));
           },
           false, std::nullopt};
 }
@@ -62,8 +63,8 @@ IntegratorPlan readVolPath(ParamReader& in, const ConstructOptions&) {
   constexpr std::array<std::string_view, 3> kChannels = {"auto", "shared", "split"};
   p.channelSampling = findOwnEnum(in, "channelsampling", kChannels, ChannelSampling::Auto);
   return {[=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
-            return std::make_unique<VolPathIntegrator>(
-                scene, p, selectorFor(scene.lightsWithMedia(), scene, p), std::move(cameraMedium));
+            return std::make_unique<VolPathIntegrator>(scene, p, selectorFor(scene.illuminants(), scene, p),
+                                                       std::move(cameraMedium));
           },
           true, std::nullopt};
 }

@@ -13,7 +13,7 @@ class LightSelector {
  public:
   virtual ~LightSelector() = default;
   struct Choice {
-    std::size_t light;  ///< index into Scene::lights()
+    std::size_t light;  ///< index into Scene::illuminants()
     float probability;  ///< > 0
   };
   /// `p`: world; `u`: in [0, 1).

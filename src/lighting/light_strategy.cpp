@@ -33,10 +33,10 @@ class UniformLightSelector final : public LightSelector {
 
 class PowerLightSelector final : public LightSelector {
  public:
-  explicit PowerLightSelector(std::span<const Light* const> lights) {
+  explicit PowerLightSelector(std::span<const Illuminant* const> lights) {
     std::vector<float> weights;
     double sum = 0;
-    for (const Light* light : lights) {
+    for (const Illuminant* light : lights) {
       const float power = light->power().luminance();
       weights.push_back(std::isfinite(power) ? std::max(power, 0.0f) : 0);
       sum += weights.back();
@@ -65,7 +65,7 @@ std::optional<LightStrategy> lightStrategyOfName(std::string_view name) {
 }
 
 std::unique_ptr<const LightSelector> makeLightSelector(LightStrategy strategy,
-                                                       std::span<const Light* const> lights,
+                                                       std::span<const Illuminant* const> lights,
                                                        const Bounds3f& sceneBounds) {
   CHECK(!lights.empty()) << "a selector needs a light to select";
   if (strategy == LightStrategy::Uniform || lights.size() == 1) {

@@ -8,7 +8,7 @@
 
 #include "base/bounds.h"
 #include "lighting/light_selector.h"
-#include "lights/light.h"
+#include "lights/illuminant.h"
 
 namespace pbrtmedia {
 
@@ -16,7 +16,7 @@ namespace pbrtmedia {
 /// every light a positive probability everywhere.
 enum class LightStrategy {
   Uniform,  ///< all lights equal
-  Power,    ///< proportional to the luminance of Light::power(), at least a thousandth of the average
+  Power,    ///< proportional to the luminance of Illuminant::power(), at least a thousandth of the average
   Spatial,  ///< by what arrives at the point, tabulated over a grid (see SpatialLightSelector)
 };
 
@@ -26,7 +26,7 @@ std::optional<LightStrategy> lightStrategyOfName(std::string_view name);
 /// `lights`: the scene's table, at least one, already preprocessed; borrowed for the life of the selector.
 /// One light: uniform, whatever was asked. No surfaces (empty `sceneBounds`), so no grid: power.
 std::unique_ptr<const LightSelector> makeLightSelector(LightStrategy strategy,
-                                                       std::span<const Light* const> lights,
+                                                       std::span<const Illuminant* const> lights,
                                                        const Bounds3f& sceneBounds);
 
 }  // namespace pbrtmedia

@@ -53,7 +53,8 @@ Point3i chooseResolution(Vector3f diagonal, std::size_t lights) {
 
 }  // namespace
 
-SpatialLightSelector::SpatialLightSelector(std::span<const Light* const> lights, const Bounds3f& sceneBounds)
+SpatialLightSelector::SpatialLightSelector(std::span<const Illuminant* const> lights,
+                                           const Bounds3f& sceneBounds)
     : lights_(lights.begin(), lights.end()), bounds_(sceneBounds) {
   CHECK(!lights_.empty()) << "a selector needs a light to select";
   CHECK(!bounds_.isEmpty()) << "there is no grid over nothing";
@@ -87,9 +88,7 @@ std::unique_ptr<const Distribution1D> SpatialLightSelector::fill(Point3i voxel) 
     const Point3f p{place(0, voxel.x, probe.position.x), place(1, voxel.y, probe.position.y),
                     place(2, voxel.z, probe.position.z)};
     for (std::size_t i = 0; i < lights_.size(); ++i) {
-      const LightSample s = lights_[i]->sample(p, probe.light);
-      if (!(s.pdf > 0)) continue;
-      const double luminance = double{s.radiance.luminance()} / s.pdf;
+      const double luminance = lights_[i]->arrivingLuminance(p, probe.light);
       if (luminance > 0 && std::isfinite(luminance)) arriving[i] += luminance;
     }
   }

@@ -10,7 +10,7 @@
 #include "base/bounds.h"
 #include "base/distribution.h"
 #include "lighting/light_selector.h"
-#include "lights/light.h"
+#include "lights/illuminant.h"
 
 namespace pbrtmedia {
 
@@ -27,7 +27,7 @@ namespace pbrtmedia {
 class SpatialLightSelector final : public LightSelector {
  public:
   /// `sceneBounds`: not empty. `lights`: at least one, borrowed.
-  SpatialLightSelector(std::span<const Light* const> lights, const Bounds3f& sceneBounds);
+  SpatialLightSelector(std::span<const Illuminant* const> lights, const Bounds3f& sceneBounds);
   ~SpatialLightSelector() override;
   SpatialLightSelector(const SpatialLightSelector&) = delete;
   SpatialLightSelector& operator=(const SpatialLightSelector&) = delete;
@@ -48,7 +48,7 @@ class SpatialLightSelector final : public LightSelector {
   const Distribution1D& tableAt(Point3f p) const;
   std::unique_ptr<const Distribution1D> fill(Point3i voxel) const;
 
-  std::vector<const Light*> lights_;
+  std::vector<const Illuminant*> lights_;
   Bounds3f bounds_;
   std::vector<Probe> probes_;
   Point3i resolution_;

@@ -8,6 +8,7 @@
 #include "base/bounds.h"
 #include "base/ray.h"
 #include "base/vec.h"
+#include "lights/illuminant.h"
 #include "shapes/surface_interaction.h"
 #include "spectrum/rgb.h"
 
@@ -38,9 +39,8 @@ struct LeSample {
 };
 
 /// A source of light, world space. Immutable after `preprocess`, thread-safe.
-class Light {
+class Light : public Illuminant {
  public:
-  virtual ~Light() = default;
   virtual std::string_view typeName() const = 0;
   /// Position or direction is a single point: no BSDF sample can find it.
   virtual bool isDelta() const = 0;
@@ -68,12 +68,16 @@ class Light {
   virtual void prepareEmission() {}
 
   virtual LightSample sample(Point3f reference, Point2f u) const = 0;
+  double arrivingLuminance(Point3f reference, Point2f u) const final {
+    const LightSample s = sample(reference, u);
+    return s.pdf > 0 ? double{s.radiance.luminance()} / s.pdf : 0;
+  }
   /// Solid-angle density of `sample(reference, .)` for unit `wi`. `hit`: the light's own surface point found
   /// along wi (area lights), null for lights at infinity. 0 for delta lights.
   virtual float pdf(Point3f reference, Vector3f wi, const SurfaceInteraction* hit) const = 0;
   /// After `prepareEmission`. A ray from the light into the scene. `uPosition`, `uDirection`: uniform in the
   /// unit square. Found by position and direction together, not toward a point: what `sample` sees of a light
-  /// is sent out here, also of a light that is split. None of light that a medium emits.
+  /// is sent out here, also of a light that is split.
   virtual LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const {
     (void)uPosition, (void)uDirection, (void)time;
     return {};
@@ -89,9 +93,6 @@ class Light {
     (void)direction;
     return {};
   }
-  /// Total emitted power estimate for light selection (scene-language reference 16.9), in W if L is in W/(m²
-  /// sr).
-  virtual Rgb power() const = 0;
 
  protected:
   explicit Light(int sampleCount = 1) : sampleCount_(sampleCount) {}

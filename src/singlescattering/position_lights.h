@@ -22,7 +22,7 @@ class PositionLights {
   /// Indices of what follows count in `lights`, which are borrowed.
   explicit PositionLights(const std::vector<const Light*>& lights);
   bool isEmpty() const { return lights_.empty(); }
-  bool contains(std::size_t light) const { return slots_[light] != kNoSlot; }
+  bool contains(std::size_t light) const { return light < slots_.size() && slots_[light] != kNoSlot; }
 
   /// A stretch of a ray through media.
   struct Stretch {

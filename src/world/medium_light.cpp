@@ -37,16 +37,10 @@ Vec3d MediumLight::pointAt(Point2f u, float time) const {
   return medium_.placement ? medium_.placement->mediaFromWorld(time).inverse().point(p) : p;
 }
 
-LightSample MediumLight::sample(Point3f reference, Point2f u) const {
-  LightSample s;
-  const Vec3d d = pointAt(u, -kInfinity) - Vec3d(reference);
-  const double squared = lengthSquared(d);
-  if (!(squared > 0)) return s;
-  s.wi = Vector3f(d / std::sqrt(squared));
-  s.distance = static_cast<float>(std::sqrt(squared));
-  s.pdf = 1;
-  s.radiance = power() * static_cast<float>(1 / (4 * double{kPi} * squared));
-  return s;
+double MediumLight::arrivingLuminance(Point3f reference, Point2f u) const {
+  const double squared = lengthSquared(pointAt(u, -kInfinity) - Vec3d(reference));
+  if (!(squared > 0)) return 0;
+  return double{(power() * static_cast<float>(1 / (4 * double{kPi} * squared))).luminance()};
 }
 
 LightSample MediumLight::sampleDirection(Point3f reference, Point2f u, float time) const {

@@ -21,18 +21,14 @@ namespace pbrtmedia {
 /// along it, as it does for scattered rays: light then comes from where the medium lets it out, however dense
 /// it is, and light samples and hits of scattered rays differ in nothing but the density of their directions.
 /// References and directions are in the world, at a time of the scene where the placement moves.
-class MediumLight final : public Light {
+class MediumLight final : public Illuminant {
  public:
   /// `volume` is that of `medium.medium`, in the space of its definition; borrowed.
   MediumLight(const PlacedMedium& medium, const EmissionVolume& volume);
 
-  std::string_view typeName() const override { return "medium"; }
-  bool isDelta() const override { return false; }
-  /// For the selection of lights: of a light at one of the points that has the power of all, at the time at
-  /// which movements start.
-  LightSample sample(Point3f reference, Point2f u) const override;
-  float pdf(Point3f, Vector3f, const SurfaceInteraction*) const override { return 0; }
   Rgb power() const override;
+  /// Of a light at one of its points that has the power of all, at the time at which movements start.
+  double arrivingLuminance(Point3f reference, Point2f u) const override;
 
   /// A direction, its density per solid angle and the distance behind which nothing emits; no radiance.
   /// `u` gives two of the three coordinates of a point and chooses the cell; the rest is hashed from it.

@@ -53,9 +53,10 @@ Scene::Scene(std::unique_ptr<Parts> parts)
     hiders_.resize(i + 1, PrimitiveId::kNone);
     hiders_[i] = target.geometry;
   }
-  lightsWithMedia_ = lights_;
-  for (std::size_t i = 0; i < parts_->mediumLights.size(); ++i)
-    lightsWithMedia_.push_back(&parts_->mediumLights[i]);
+  illuminants_.assign(lights_.begin(), lights_.end());
+  for (std::size_t i = 0; i < parts_->mediumLights.size(); ++i) {
+    illuminants_.push_back(&parts_->mediumLights[i]);
+  }
   hasVisibleEmitters_ = !infiniteLights_.empty();
   const auto emits = [](const Medium* medium) { return medium && medium->isEmissive(); };
   for (const auto& group : primitiveGroups()) {

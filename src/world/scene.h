@@ -17,6 +17,7 @@
 
 namespace pbrtmedia {
 
+class Illuminant;
 class Light;
 class Medium;
 class MediumLight;
@@ -89,7 +90,7 @@ class Scene {
   /// World-space surface point of a hit of `ray`, without footprint.
   SurfaceInteraction surface(const SceneHit& hit, const Ray& ray) const;
 
-  /// The lights that illuminate, in order of addition; light selectors speak of these numbers.
+  /// The lights that illuminate, in order of addition.
   const std::vector<const Light*>& lights() const { return lights_; }
   /// The primitive a light is on, to be left out when its visibility is tested; invalid for other lights.
   PrimitiveId lightTarget(std::size_t light) const {
@@ -100,11 +101,12 @@ class Scene {
   std::uint32_t hiderOf(std::size_t light) const {
     return light < hiders_.size() ? hiders_[light] : PrimitiveId::kNone;
   }
-  /// The same, followed by the emissive media; for integrators that render media.
-  const std::vector<const Light*>& lightsWithMedia() const { return lightsWithMedia_; }
-  /// Number in lightsWithMedia() of a medium; nothing when light sampling does not look for it.
+  /// What light selectors choose from: lights(), followed by the emissive media, which only integrators that
+  /// render media take.
+  const std::vector<const Illuminant*>& illuminants() const { return illuminants_; }
+  /// Number in illuminants() of a medium; nothing when light sampling does not look for it.
   std::optional<std::size_t> lightOf(const PlacedMedium& medium) const;
-  /// Number `light` of lightsWithMedia(), null when that is no medium.
+  /// Number `light` of illuminants(), null when that is no medium.
   const MediumLight* mediumLight(std::size_t light) const;
   /// Some primitive names a medium that emits.
   bool hasEmissiveMedia() const { return hasEmissiveMedia_; }
@@ -142,7 +144,8 @@ class Scene {
   SceneHit resolve(const RayHit& hit) const;
 
   std::unique_ptr<Parts> parts_;
-  std::vector<const Light*> lights_, lightsWithMedia_;
+  std::vector<const Light*> lights_;
+  std::vector<const Illuminant*> illuminants_;
   std::vector<PrimitiveId> lightTargets_;
   std::vector<std::uint32_t> hiders_;  ///< up to the last light that has one
   std::vector<std::uint32_t> infiniteLights_;

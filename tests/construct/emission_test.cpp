@@ -88,7 +88,7 @@ TEST(ConstructEmission, GlowingMediumIsALightAndNoDarkScene) {
   Attempt a = attempt(kSmall + "WorldBegin\nMakeNamedMedium \"m\" " + kGrid + "\"rgb Le\" [ 1 1 1 ]" +
                       kInBox + "WorldEnd\n");
   ASSERT_TRUE(a.isSilent()) << a.messages();
-  EXPECT_EQ(a.made->scene->lightsWithMedia().size(), 1u);
+  EXPECT_EQ(a.made->scene->illuminants().size(), 1u);
   Attempt dark = attempt(kSmall + "WorldBegin\nMakeNamedMedium \"m\" " + kGrid + kInBox + "WorldEnd\n");
   EXPECT_TRUE(dark.warns("black")) << dark.messages();
 }

@@ -76,7 +76,7 @@ TEST_F(ConstructNanoVdbEmission, TemperaturesOfAnotherGridOfTheFile) {
   ASSERT_TRUE(a.isSilent()) << a.messages();
   expectNear(emissionAt(a, inFire_), Rgb(1, 2, 3) * 2.0f * blackbodyToRgb(3000, 3));
   EXPECT_EQ(emissionAt(a, below_), Rgb());
-  EXPECT_EQ(a.made->scene->lightsWithMedia().size(), 2u);
+  EXPECT_EQ(a.made->scene->illuminants().size(), 2u);
 }
 
 TEST_F(ConstructNanoVdbEmission, FactorsOfAnotherGridOfTheFile) {

@@ -122,7 +122,7 @@ TEST(MediumEmission, HotFurnaceIsWhite) {
         kit.builder.addPrimitive({.shape = kit.sphere({0.3f, 0, 0}, 0.4f), .material = kit.matte(1)});
         kit.sky(1);
         const auto scene = kit.finish();
-        EXPECT_EQ(scene->lightsWithMedia().size(), 2u);
+        EXPECT_EQ(scene->illuminants().size(), 2u);
         const ZTest test = zTest(
             estimate(*makeVolPath(*scene, {.maxDepth = 100000}), rayOf({0.3f, 0.2f, 5}, {0, 0, -1}), 1 << 12)
                 .red,
@@ -216,7 +216,7 @@ TEST(MediumEmission, FloorUnderAGlowingBallEqualsQuadrature) {
   for (const auto storage : kStorages) {
     const Gas gas{Rgb(0.7f), Rgb(0), Rgb(3), storage};
     const auto lit = glowingBall(gas);
-    EXPECT_EQ(lit->lightsWithMedia().size(), 1u);
+    EXPECT_EQ(lit->illuminants().size(), 1u);
     const Estimates a = estimate(*makeVolPath(*lit, {.maxDepth = 1}), kAtFloor, 1 << 17),
                     b = unlit(gas, nullptr, {.maxDepth = 1}, kAtFloor, 1 << 17);
     const ZTest with = zTest(a.red, truth), without = zTest(b.red, truth);
@@ -235,7 +235,7 @@ TEST(PlacedEmission, LightsTheFloorAsIfPlacedDirectly) {
       const Gas gas{Rgb(0.7f), Rgb(0), Rgb(3), storage};
       const auto lit = glowingBall(gas, &placing);
       EXPECT_EQ(lit->lights().size(), 0u);
-      EXPECT_EQ(lit->lightsWithMedia().size(), 1u);
+      EXPECT_EQ(lit->illuminants().size(), 1u);
       const Estimates a = estimate(*makeVolPath(*lit, {.maxDepth = 1}), kAtFloor, 1 << 16),
                       b = unlit(gas, &placing, {.maxDepth = 1}, kAtFloor, 1 << 16);
       const ZTest with = zTest(a.red, truth), without = zTest(b.red, truth);
@@ -276,7 +276,7 @@ TEST(PlacedEmission, HotFurnaceIsWhite) {
       kit.builder.addPrimitive({.shape = kit.sphere({0.3f, 0, 0}, 0.4f), .material = kit.matte(1)});
       kit.sky(1);
       const auto scene = kit.finish();
-      EXPECT_EQ(scene->lightsWithMedia().size(), 2u);
+      EXPECT_EQ(scene->illuminants().size(), 2u);
       const ZTest test = zTest(estimate(*makeVolPath(*scene, {.maxDepth = 100000}),
                                         rayAtTime({0.3f, 0.2f, 5}, {0, 0, -1}), 1 << 12)
                                    .red,
@@ -299,7 +299,7 @@ TEST(PlacedEmission, EveryPlacementIsALightOfItsOwn) {
   kit.builder.addInstance(object, AnimatedTransform(Transform::translate({0, 5, 0})));
   kit.builder.addInstance(object, AnimatedTransform(Transform::scale(2, -3, 4)));
   const auto scene = kit.finish();
-  ASSERT_EQ(scene->lightsWithMedia().size(), 3u);
+  ASSERT_EQ(scene->illuminants().size(), 3u);
   // Of what a cube of edge 1 emits, the share that escapes along its mean chord.
   const float power = 4 * kPi * 6 * static_cast<float>(-std::expm1(-2 * 2.0 / 3) / (2 * 2.0 / 3));
   for (const auto& [number, volume] : {std::pair{0u, 1.0f}, {1u, 1.0f}, {2u, 24.0f}}) {
@@ -331,7 +331,7 @@ TEST(PlacedEmission, OfAMediumAroundTheObjectIsNotTheObjects) {
   kit.builder.addPrimitive({.shape = kit.box({-9, -9, -9}, {9, 9, 9}), .media = {gas, nullptr}});
   kit.builder.addInstance(object, AnimatedTransform(kSkew));
   const auto scene = kit.finish();
-  ASSERT_EQ(scene->lightsWithMedia().size(), 1u);
+  ASSERT_EQ(scene->illuminants().size(), 1u);
   EXPECT_EQ(scene->mediumLight(0)->medium().placement, nullptr);
 }
 
@@ -350,7 +350,7 @@ TEST(MediumEmission, EverySelectionStrategyFindsTheGas) {
   const Estimates uniform = estimate(*makeVolPath(*scene, params), kAtFloor, 1 << 15);
   for (const LightStrategy strategy : {LightStrategy::Power, LightStrategy::Spatial}) {
     const VolPathIntegrator integrator(*scene, params,
-                                       makeLightSelector(strategy, scene->lightsWithMedia(), scene->bounds()),
+                                       makeLightSelector(strategy, scene->illuminants(), scene->bounds()),
                                        CameraMedium(*scene, kFarAway, 0, nullptr));
     const ZTest same = zTest(estimate(integrator, kAtFloor, 1 << 15, 2).red, uniform.red);
     EXPECT_LT(std::abs(same.z()), kMaxAbsZ) << same;
@@ -636,7 +636,7 @@ TEST(MediumEmission, FromWithinADenseGasEveryDirectionShinesAlike) {
       const auto scene = kit.finish();
       const VolPathIntegrator integrator(
           *scene, {.maxDepth = 1},
-          makeLightSelector(LightStrategy::Uniform, scene->lightsWithMedia(), scene->bounds()),
+          makeLightSelector(LightStrategy::Uniform, scene->illuminants(), scene->bounds()),
           CameraMedium(*scene, {0, 0, 1e-5f}, 0, medium));
       const Estimates e = estimate(integrator, rayAtTime({0, 0, 1e-5f}, {0.1f, 0, -1}), 1 << 14);
       const double near = std::exp(-double{sigma} * 1e-5 * std::sqrt(1.01));

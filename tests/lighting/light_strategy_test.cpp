@@ -33,7 +33,11 @@ class Lights {
     distant_.preprocess(kBox);
     sky_.preprocess(kBox);
   }
-  std::vector<const Light*> all() const { return {&near_, &far_, &away_, &distant_, &sky_}; }
+  std::vector<const Light*> lights() const { return {&near_, &far_, &away_, &distant_, &sky_}; }
+  std::vector<const Illuminant*> all() const {
+    const std::vector<const Light*> each = lights();
+    return {each.begin(), each.end()};
+  }
 
  private:
   PointLight near_{Transform(), {.intensity = Rgb(1), .from = {-8, 0, 0}}};
@@ -110,7 +114,7 @@ TEST(LightSelection, EveryStrategyGivesTheSameMean) {
   const Normal3f n = normalize(Vector3f{-0.5f, 0.3f, -0.8f});
   for (const Point3f p : {Point3f{-6, 1, 0}, Point3f{5, -5, 2}}) {
     const auto one = [&](std::size_t i, Rng& rng) {
-      const LightSample s = lights.all()[i]->sample(p, {rng.uniform(), rng.uniform()});
+      const LightSample s = lights.lights()[i]->sample(p, {rng.uniform(), rng.uniform()});
       return s.pdf > 0 ? double{s.radiance.r} * std::max(0.0f, dot(n, s.wi)) / s.pdf : 0;
     };
     double truth = 0.01 * std::numbers::pi;  // the sky
@@ -139,7 +143,7 @@ TEST(LightSelection, UniformGivesAllLightsTheSame) {
 
 TEST(LightSelection, OneLightIsAlwaysChosenAndNothingIsTabulated) {
   const PointLight light(Transform(), {});
-  const std::vector<const Light*> lights{&light};
+  const std::vector<const Illuminant*> lights{&light};
   for (const LightStrategy strategy : kStrategies) {
     const auto selector = makeLightSelector(strategy, lights, kBox);
     EXPECT_EQ(selector->choose({1, 2, 3}, 0.9f).light, 0u);
@@ -151,7 +155,7 @@ TEST(LightSelection, OneLightIsAlwaysChosenAndNothingIsTabulated) {
 TEST(LightSelection, PowerIsProportionalToTheLuminanceOfThePower) {
   const PointLight weak(Transform(), {.intensity = Rgb(1)}), strong(Transform(), {.intensity = Rgb(3)});
   const PointLight green(Transform(), {.intensity = {0, 1, 0}});
-  const std::vector<const Light*> lights{&weak, &strong, &green};
+  const std::vector<const Illuminant*> lights{&weak, &strong, &green};
   const auto selector = makeLightSelector(LightStrategy::Power, lights, kBox);
   const double total = 4 + 0.715160;
   for (const Point3f p : somePoints()) {
@@ -166,11 +170,11 @@ TEST(LightSelection, PowerFindsLightsWhosePowerIsEstimatedAsNothing) {
   const PointLight point(Transform(), {});
   InfiniteLight sky(Transform(), {});
   sky.preprocess({{1, 1, 1}, {1, 1, 1}});
-  const std::vector<const Light*> lights{&point, &sky};
+  const std::vector<const Illuminant*> lights{&point, &sky};
   const auto selector = makeLightSelector(LightStrategy::Power, lights, kBox);
   EXPECT_NEAR(selector->probability({}, 1), 0.0005, 1e-6);
 
-  const std::vector<const Light*> dark{&sky, &sky};
+  const std::vector<const Illuminant*> dark{&sky, &sky};
   EXPECT_EQ(makeLightSelector(LightStrategy::Power, dark, kBox)->probability({}, 1), 0.5f);
 }
 
@@ -184,7 +188,7 @@ TEST(LightSelection, SpatialFallsBackToPowerWithoutSurfaces) {
 TEST(SpatialLightSelector, WeighsLightsByTheInverseSquareOfTheirDistance) {
   const PointLight a(Transform(), {.intensity = Rgb(1), .from = {-8, 0, 0}});
   const PointLight b(Transform(), {.intensity = Rgb(1), .from = {8, 0, 0}});
-  const std::vector<const Light*> lights{&a, &b};
+  const std::vector<const Illuminant*> lights{&a, &b};
   const SpatialLightSelector selector(lights, kBox);
   // A voxel is 0.3 wide: at 4 and 12 units the mean of 1/r² is that of its centre to a per cent.
   const double expected = (1 / 16.0) / (1 / 16.0 + 1 / 144.0);
@@ -196,14 +200,14 @@ TEST(SpatialLightSelector, WeighsLightsByTheInverseSquareOfTheirDistance) {
 TEST(SpatialLightSelector, GivesEveryLightAThousandthOfTheAverage) {
   const PointLight lit(Transform(), {});
   const SpotLight away(Transform::translate({0, 0, 30}), {});
-  const std::vector<const Light*> lights{&lit, &away};
+  const std::vector<const Illuminant*> lights{&lit, &away};
   const SpatialLightSelector selector(lights, kBox);
   EXPECT_NEAR(selector.probability({1, 2, 3}, 1), 0.001 / 2.001, 1e-7);
 }
 
 TEST(SpatialLightSelector, TreatsLightsAlikeWhereNothingArrives) {
   const SpotLight a(Transform::translate({0, 0, 30}), {}), b(Transform::translate({0, 0, 40}), {});
-  const std::vector<const Light*> lights{&a, &b};
+  const std::vector<const Illuminant*> lights{&a, &b};
   EXPECT_EQ(SpatialLightSelector(lights, kBox).probability({}, 0), 0.5f);
 }
 
@@ -280,7 +284,7 @@ TEST(SpatialLightSelector, WorksForASceneThatIsAPoint) {
 
 TEST(SpatialLightSelector, BoundsItsMemoryForManyLights) {
   const PointLight light(Transform(), {});
-  const std::vector<const Light*> lights(20000, &light);
+  const std::vector<const Illuminant*> lights(20000, &light);
   const SpatialLightSelector selector(lights, kBox);
   const Point3i r = selector.resolution();
   EXPECT_LE(std::int64_t{r.x} * r.y * r.z * 20000, std::int64_t{1} << 24);

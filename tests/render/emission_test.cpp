@@ -206,7 +206,7 @@ TEST(EmissionBeyondLightSamples, EndlessGasIsAFurnace) {
                              "WorldBegin\n" + medium("\"string type\" \"homogeneous\"", .5, sigmaS, 1) +
                              "MediumInterface \"\" \"m\"\nMaterial \"matte\" \"rgb Kd\" [ 1 1 1 ]\n"
                              "Translate .5 .5 0 Shape \"sphere\" \"float radius\" 1\nWorldEnd\n";
-    EXPECT_TRUE(constructText(text).scene->lightsWithMedia().empty());
+    EXPECT_TRUE(constructText(text).scene->illuminants().empty());
     const ZTest test = zTest(samplesOf(text, sigmaS > 0 ? 130'000 : 1024), 1, 1);
     EXPECT_NEAR(test.mean, 1, 1e-5 + kMaxAbsZ * test.standardError);
     EXPECT_TRUE(test.sees()) << test;
@@ -223,7 +223,7 @@ TEST(EmissionBeyondLightSamples, CountsFullyOutsideTheBoxOfTheLight) {
                            "Material \"matte\" \"rgb Kd\" [ 1 1 1 ] MediumInterface \"\" \"m\"\nTranslate .5 "
                            ".5 3 Shape \"sphere\" "
                            "\"float radius\" 1\nWorldEnd\n";
-  EXPECT_EQ(constructText(text).scene->lightsWithMedia().size(), 1u);
+  EXPECT_EQ(constructText(text).scene->illuminants().size(), 1u);
   const ZTest test = zTest(samplesOf(text, 65'000), 1, 1);
   EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
   EXPECT_TRUE(test.sees()) << test;

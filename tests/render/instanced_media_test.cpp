@@ -204,18 +204,18 @@ TEST(MediaOfInstances, ThatGlowAreTheSameLight) {
   const std::string placed = kView + glow + object("half", half) + instance("half", left) +
                              instance("half", right) + kFloor + "WorldEnd\n";
   EXPECT_GT(imageMean(renderText(direct).image), 0.1);
-  EXPECT_EQ(constructText(placed).scene->lightsWithMedia().size(), 1u) << "one medium, one light";
+  EXPECT_EQ(constructText(placed).scene->illuminants().size(), 1u) << "one medium, one light";
   expectSameImage(direct, placed, 0.02);
   // Defined inside, and of homogeneous ones, every placement is a light.
   EXPECT_EQ(constructText(kView + object("half", glow + half) + instance("half", left) +
                           instance("half", right) + "WorldEnd\n")
-                .scene->lightsWithMedia()
+                .scene->illuminants()
                 .size(),
             2u);
   const std::string neon = "MakeNamedMedium \"smoke\" \"string type\" \"homogeneous\" \"rgb Le\" [ 1 1 1 ]\n";
   EXPECT_EQ(constructText(kView + neon + object("half", half) + instance("half", left) +
                           instance("half", right) + "WorldEnd\n")
-                .scene->lightsWithMedia()
+                .scene->illuminants()
                 .size(),
             2u);
 }

@@ -99,12 +99,13 @@ class SceneKit {
 
 inline std::unique_ptr<const LightSelector> uniformSelector(const Scene& scene) {
   if (scene.lights().empty()) return nullptr;
-  return makeLightSelector(LightStrategy::Uniform, scene.lights(), scene.bounds());
+  return makeLightSelector(LightStrategy::Uniform,
+                           std::span(scene.illuminants()).first(scene.lights().size()), scene.bounds());
 }
 
 inline std::unique_ptr<const LightSelector> uniformSelectorWithMedia(const Scene& scene) {
-  if (scene.lightsWithMedia().empty()) return nullptr;
-  return makeLightSelector(LightStrategy::Uniform, scene.lightsWithMedia(), scene.bounds());
+  if (scene.illuminants().empty()) return nullptr;
+  return makeLightSelector(LightStrategy::Uniform, scene.illuminants(), scene.bounds());
 }
 
 inline std::unique_ptr<SamplingIntegrator> makePath(const Scene& scene, PathParams params = {}) {

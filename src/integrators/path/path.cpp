@@ -15,7 +15,7 @@ PathIntegrator::PathIntegrator(const Scene& scene, const PathParams& params,
 PathIntegrator::~PathIntegrator() = default;
 
 Rgb PathIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
-  const PathSetup setup{scene(), params_, scene().lights(), selector_.get(), nullptr, nullptr, false};
+  const PathSetup setup{scene(), params_, scene().lights().size(), selector_.get(), nullptr, nullptr, false};
   return PathTracer(setup, ray, MediumState(), context).trace();
 }
 

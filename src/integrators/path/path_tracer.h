@@ -18,8 +18,8 @@ namespace pbrtmedia {
 struct PathSetup {
   const Scene& scene;
   const PathParams& params;
-  const std::vector<const Light*>& lights;
-  const LightSelector* selector;             ///< of `lights`; null: there are none
+  std::size_t lightCount;                    ///< of Scene::illuminants() that illuminate
+  const LightSelector* selector;             ///< of these; null: there are none
   const MediaTopology* media;                ///< null: media are ignored
   const SingleScattering* singleScattering;  ///< null: collisions alone sample lights in media
   bool mediaEmit;                            ///< some medium may emit

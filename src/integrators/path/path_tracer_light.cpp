@@ -11,12 +11,12 @@ namespace pbrtmedia {
 
 /// A light and a point on it; nothing when light sampling has no part in the estimate.
 std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool scatteringFindsUniformLights) {
-  const auto& lights = setup_.lights;
-  if (lights.empty()) return std::nullopt;
+  if (setup_.lightCount == 0) return std::nullopt;
+  const auto& lights = setup_.scene.lights();
   const auto skips = [&](std::size_t i) {
-    return scatteringFindsUniformLights && lights[i]->isUniformInfinite();
+    return scatteringFindsUniformLights && i < lights.size() && lights[i]->isUniformInfinite();
   };
-  if (lights.size() == 1 && skips(0)) return std::nullopt;
+  if (setup_.lightCount == 1 && skips(0)) return std::nullopt;
   const LightSelector::Choice choice = setup_.selector->choose(p, samples_.get1D());
   const Point2f u = samples_.get2D();
   if (skips(choice.light)) return std::nullopt;
@@ -53,10 +53,12 @@ Rgb PathTracer::arriving(const PickedLight& light, Point3f p, const Exclusions& 
 
 /// Share of a light sample; what a direction of that density finds accounts for the rest.
 float PathTracer::lightWeight(const PickedLight& light, float directionPdf) const {
-  if (setup_.lights[light.index]->isDelta()) return 1;
+  const auto& lights = setup_.scene.lights();
   const LightSample& s = light.sample;
-  if (setup_.lights[light.index]->isSplit()) return powerHeuristic(s.pdf / light.probability, directionPdf);
-  return powerHeuristic(s.pdf, directionPdf);
+  if (light.index >= lights.size()) return powerHeuristic(s.pdf, directionPdf);
+  const Light& source = *lights[light.index];
+  if (source.isDelta()) return 1;
+  return powerHeuristic(source.isSplit() ? s.pdf / light.probability : s.pdf, directionPdf);
 }
 
 /// Share of a collision's sample of a light at one point; `lightStretch` accounts for the rest.
@@ -74,7 +76,8 @@ void PathTracer::lightSurface(const Bsdf& bsdf) {
   const LightSample& s = light->sample;
   const Rgb f = bsdf.f(si.wo, s.wi, BsdfFlags::AllButSpecular) * absDot(s.wi, bsdf.shadingNormal());
   if (f.isBlack()) return;
-  const bool isDelta = setup_.lights[light->index]->isDelta();
+  const auto& lights = setup_.scene.lights();
+  const bool isDelta = light->index < lights.size() && lights[light->index]->isDelta();
   const float weight = isDelta ? 1 : lightWeight(*light, bsdf.pdf(si.wo, s.wi));
   MediumState state = state_;
   if (setup_.media) {
@@ -131,14 +134,14 @@ void PathTracer::collectMediumEmission(const MediaStretch& stretch) {
 float PathTracer::emissionWeight(std::size_t light, const SurfaceInteraction* si) const {
   if (isDirect_) return 1;
   if (light == SceneHit::kNoLight) return 0;  // visible, but no source of illumination
-  const Light& source = *setup_.lights[light];
+  const Light& source = *setup_.scene.lights()[light];
   if (ownsUniformLights_ && source.isUniformInfinite()) return 1;
   const float probability = source.isSplit() ? 1 : setup_.selector->probability(ray_.o, light);
   const float lightPdf = probability * source.pdf(ray_.o, ray_.d, si);
   return powerHeuristic(directionPdf_, lightPdf);
 }
 
-/// The same for emission of a medium, number `light` of the lights.
+/// The same for emission of a medium, number `light` of Scene::illuminants().
 float PathTracer::mediumEmissionWeight(const MediumLight& source, std::size_t light) const {
   const double lightPdf =
       double{setup_.selector->probability(ray_.o, light)} * source.directionPdf(ray_.o, ray_.d, ray_.time);
@@ -157,7 +160,7 @@ void PathTracer::collectEmission(Way& way, const SceneHit& hit, const SurfaceInt
 
 void PathTracer::collectBackground() {
   for (const std::uint32_t light : setup_.scene.infiniteLights()) {
-    const Rgb background = setup_.lights[light]->background(ray_.d);
+    const Rgb background = setup_.scene.lights()[light]->background(ray_.d);
     if (!background.isBlack()) radiance_ += beta_ * background * emissionWeight(light, nullptr);
   }
 }

@@ -13,8 +13,8 @@ VolPathIntegrator::VolPathIntegrator(const Scene& scene, const PathParams& param
       params_(params),
       selector_(std::move(selector)),
       media_(scene, std::move(cameraMedium)),
-      singleScattering_(scene.lightsWithMedia(), selector_.get(), params.mediumLightSampling) {
-  CHECK(selector_ || scene.lightsWithMedia().empty()) << "lights need a selector";
+      singleScattering_(scene.lights(), selector_.get(), params.mediumLightSampling) {
+  CHECK(selector_ || scene.illuminants().empty()) << "lights need a selector";
 }
 VolPathIntegrator::~VolPathIntegrator() = default;
 
@@ -23,7 +23,7 @@ Rgb VolPathIntegrator::radiance(const RayDifferential& ray, SampleContext& conte
   const bool hasMedia = media_.hasMedia();
   const PathSetup setup{scene(),
                         params_,
-                        scene().lightsWithMedia(),
+                        scene().illuminants().size(),
                         selector_.get(),
                         hasMedia || scene().hasShadowAlpha() ? &media_ : nullptr,
                         hasMedia ? &singleScattering_ : nullptr,

@@ -16,7 +16,7 @@ namespace pbrtmedia {
 /// look for emission and, being lights, by light samples. Unbiased.
 class VolPathIntegrator final : public SamplingIntegrator {
  public:
-  /// `selector` is over Scene::lightsWithMedia(); may be null when that is empty.
+  /// `selector` is over Scene::illuminants(); may be null when that is empty.
   VolPathIntegrator(const Scene& scene, const PathParams& params,
                     std::unique_ptr<const LightSelector> selector, CameraMedium cameraMedium);
   ~VolPathIntegrator() override;
