@@ -11,7 +11,7 @@ Each example is a list of steps under a heading of the section "Worked examples"
   in `A` put `NEW` after `OLD`                          OLD occurs exactly once; "for" instead of "after": in its place
   run `COMMAND`: `WORD`                                 in the build folder, after building; its output has the word
 
-A text of several lines is written with \\n between them. All examples are done in one tree, so that what they have in common
+A text of several lines is written with \\n between them, a backtick in a text as \\'. All examples are done in one tree, so that what they have in common
 is built once. Tests run from programs of one test file each, alone_FOLDER_FILE, as in scripts/mutations.py.
 """
 import dataclasses
@@ -50,7 +50,7 @@ def parse(page: str) -> list[Example]:
         example = Example(title.strip())
         for step in re.findall(r"(?ms)^\d+\. (.*?)(?=^\d+\. |^$|\Z)", body):
             text = " ".join(step.split())
-            said = [q.replace("\\n", "\n") for q in re.findall(r"`([^`]*)`", text)]
+            said = [q.replace("\\n", "\n").replace("\\'", "`") for q in re.findall(r"`([^`]*)`", text)]
             if text.startswith("copy ") and len(said) >= 2 and len(said) % 2 == 0:
                 example.copies.append((said[0], said[1], list(zip(said[3::2], said[2::2]))))
             elif len(said) == 3 and (how := re.fullmatch(r"in `.*?` put `.*?` (after|for) `.*?`", text)):
