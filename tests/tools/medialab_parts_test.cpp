@@ -5,12 +5,14 @@
 #include <atomic>
 #include <cmath>
 #include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
 #include "base/rng.h"
 #include "support/statistics.h"
+#include "support/temporary_folder.h"
 #include "tools/medialab/canvas.h"
 #include "tools/medialab/fit.h"
 #include "tools/medialab/heatmap_picture.h"
@@ -80,15 +82,51 @@ TEST(LabTable, CsvQuotesAndJsonKeepsTypes) {
             "# medialab test\n# a note\n# skipped: x: because\nname,value,count,yes\n"
             "\"a,\"\"b\"\"\",0.1,7,true\nc,nan,0,false\n");
   table.markStopped();
-  table.write(json, TableFormat::Json);
+  table.write(json, TableFormat::Json, {{"seed", std::uint64_t{5}}, {"program", std::string("p")}});
   const auto document = nlohmann::json::parse(json.str());
   EXPECT_EQ(document["command"], "medialab test");
+  EXPECT_EQ(document["provenance"], (nlohmann::json{{"seed", 5}, {"program", "p"}}));
   EXPECT_EQ(document["rows"][0]["value"], 0.1);
   EXPECT_TRUE(document["rows"][1]["value"].is_null());
   EXPECT_EQ(document["skipped"][0]["reason"], "because");
   EXPECT_EQ(document["stopped"], true);
   EXPECT_THROW(table.add({0.1}), std::logic_error);
   EXPECT_THROW(table.column("none"), std::logic_error);
+}
+
+TEST(LabTable, TextIsAlignedAndRounded) {
+  LabTable table("medialab test", {"name", "value", "n"});
+  table.add({std::string("a longer one"), 0.123456789, std::uint64_t{7}});
+  table.add({std::string("c"), std::nan(""), std::uint64_t{12345}});
+  table.note("a note");
+  table.skip("x", "because");
+  table.markStopped();
+  std::ostringstream text;
+  table.write(text, TableFormat::Text);
+  EXPECT_EQ(text.str(),
+            "name            value      n\n"
+            "a longer one  0.12346      7\n"
+            "c                 nan  12345\n"
+            "a note\nskipped: x: because\nstopped before the end: rows are missing\n");
+}
+
+TEST(IdentityText, IsWhatIsMeasuredWhateverBecomesOfIt) {
+  const auto identity = [](std::vector<const char*> words) {
+    words.insert(words.begin(), "medialab");
+    return identityText(static_cast<int>(words.size()), words.data());
+  };
+  const TemporaryFolder folder;
+  const std::string table = (folder.path() / "t.csv").string();
+  std::ofstream(table) << "0,1\n1,2\n";
+  const std::string extinction = "cosine," + table;
+  const std::string before = identity({"estimate", "--extinction", extinction.c_str(), "--trials", "9"});
+  EXPECT_EQ(before.find("medialab estimate --extinction cosine,"), 0u) << before;
+  EXPECT_NE(before.find("pbrt-media "), before.npos) << before;
+  EXPECT_EQ(before, identity({"estimate", "--extinction", extinction.c_str(), "--trials", "9", "-o", "a.json",
+                              "--format=json", "--resume", "j", "--quiet", "--nthreads=4", "--no-seconds"}));
+  EXPECT_NE(before, identity({"estimate", "--extinction", extinction.c_str(), "--trials", "8"}));
+  std::ofstream(table) << "0,1\n1,3\n";
+  EXPECT_NE(before, identity({"estimate", "--extinction", extinction.c_str(), "--trials", "9"}));
 }
 
 TEST(CommandText, NamesNoFolderAndNothingThatCannotMatter) {

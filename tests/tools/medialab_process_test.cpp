@@ -55,6 +55,32 @@ TEST(Medialab, HelpAndMistakesHaveTheRightStatus) {
   EXPECT_EQ(lab("estimate --unknown").status, 1);
 }
 
+/// Killed and begun again until it ends by itself, wherever that hits it.
+TEST(Medialab, GoesOnWhereItWasKilled) {
+  const TemporaryFolder folder;
+  const std::string in = folder.path().string();
+  for (const std::string command :
+       {"estimate --extinction cosine,gaussian --trials 20000", "converge --doublings 6 --trials 400",
+        "heatmap --extinction gaussian --estimator ratio,residual-ratio,track-length --width 16 --height "
+        "16"}) {
+    const std::string what = command + " --quiet --no-seconds -o t.csv";
+    ASSERT_EQ(lab(what, in).status, 0);
+    const std::string whole = test::run("cat '" + in + "/t.csv' && rm '" + in + "/t.csv'").output;
+    int kills = 0;
+    for (double seconds = 0.02; kills < 200; ++kills, seconds *= 1.2) {
+      const ProcessResult r = test::run("cd '" + in + "' && timeout -s KILL " + std::to_string(seconds) +
+                                        " '" + PBRT_MEDIA_MEDIALAB "' " + what + " --resume journal");
+      if (r.status == 0) break;
+    }
+    EXPECT_GT(kills, 0) << command;
+    EXPECT_EQ(test::run("cat '" + in + "/t.csv'").output, whole) << command;
+    const ProcessResult other = lab(command + "0 --quiet --resume journal", in);
+    EXPECT_EQ(other.status, 1) << command;
+    expectIn(other, "belongs to other measurements");
+    std::filesystem::remove(folder.path() / "journal");
+  }
+}
+
 TEST(Medialab, ErrorsTellTheNearestNames) {
   const auto fails = [](const std::string& arguments, const std::vector<std::string>& parts) {
     const ProcessResult result = lab(arguments + " --trials 10");
@@ -127,7 +153,11 @@ TEST(Medialab, TheNameOfTheFileSaysTheFormat) {
   EXPECT_EQ(folder.read("a.csv").substr(0, 10), "# medialab");
   ASSERT_EQ(lab(command + "-o a.txt --format json", path).status, 0);
   EXPECT_EQ(json::parse(folder.read("a.txt"))["rows"].size(), 1u);
-  for (const char* wrong : {"-o b.txt", "-o b", "-o b.json --format csv", "-o b.csv --format json"}) {
+  ASSERT_EQ(lab(command + "-o c.txt", path).status, 0);
+  EXPECT_EQ(folder.read("c.txt").substr(0, 22), "estimator  extinction ");
+  EXPECT_EQ(lab(command + "--format text").output.substr(0, 22), "estimator  extinction ");
+  EXPECT_EQ(lab(command).output.substr(0, 10), "# medialab") << "no terminal";
+  for (const char* wrong : {"-o b.dat", "-o b", "-o b.json --format csv", "-o b.csv --format json"}) {
     const ProcessResult result = lab(command + wrong, path);
     EXPECT_EQ(result.status, 1) << wrong;
     EXPECT_EQ(result.output.find("medialab: error: b"), 0u) << result.output;

@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "tools/medialab/fit.h"
+#include "tools/medialab/journal.h"
 
 namespace pbrtmedia {
 namespace {
@@ -74,15 +75,17 @@ LabTable emptyTable(const ConvergeOptions& o) {
 
 /// Doubles the samples until the last, or until somebody stops it; calls `onPoint` after each.
 template <class OnPoint>
-void measure(Curve& curve, const LabProblem& problem, const ConvergeOptions& o, const StopSignal& stop,
-             const OnPoint& onPoint) {
+void measure(Curve& curve, const LabProblem& problem, const ConvergeOptions& o, TrialJournal& journal,
+             const StopSignal& stop, const OnPoint& onPoint) {
   const std::uint64_t seed =
       rowSeed(o.lab.seed, curve.estimator.label(), curve.function.about().name, curve.choice);
   for (unsigned d = 0; d <= o.doublings; ++d) {
     const std::uint32_t samples = 1u << d;
-    const TrialStats stats =
-        runTrialsInParallel(curve.estimator, problem, {.samples = samples, .pattern = o.pattern},
-                            hashCombine(seed, d), o.trials, stop.flag());
+    const std::uint64_t own = hashCombine(seed, d);
+    const TrialStats stats = journal.recall(own, stop.flag(), [&] {
+      return runTrialsInParallel(curve.estimator, problem, {.samples = samples, .pattern = o.pattern}, own,
+                                 o.trials, stop.flag());
+    });
     if (stop) return;
     curve.points.push_back(pointOf(samples, stats, curve.exact));
     onPoint();
@@ -135,6 +138,7 @@ LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
   std::size_t total = 0, done = 0;
   for (const auto& f : functions) total += estimators.size() * problemChoices(o.problem, f).size();
   total *= o.doublings + 1;
+  TrialJournal journal(o.lab.resume, o.lab.identity);
   LabProgress progress("medialab converge", total, o.lab.quiet);
   for (const LabEstimator& estimator : estimators) {
     for (const CanonicalFunction& function : functions) {
@@ -146,7 +150,7 @@ LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
           done += o.doublings + 1;
           continue;
         }
-        measure(curve, problem, o, stop, [&] { progress.update(++done, curve.name()); });
+        measure(curve, problem, o, journal, stop, [&] { progress.update(++done, curve.name()); });
         addRows(table, curve, o);
         if (stop) {
           table.markStopped();

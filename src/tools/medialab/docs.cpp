@@ -212,7 +212,8 @@ void printLab(std::ostream& out) {
   out << R"(
 ## The lab
 
-`medialab COMMAND --help` tells all options; every output begins with the command that repeats it.
+`medialab COMMAND --help` tells all options; every file begins with the command that repeats it. `--resume FILE` (of `estimate`,
+`converge`, `heatmap`) keeps what is measured: the same command goes on where it was stopped or killed.
 
 ```
 medialab list                                                                      # this page's first half, as text or JSON

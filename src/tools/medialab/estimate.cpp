@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/parallel.h"
+#include "tools/medialab/journal.h"
 
 namespace pbrtmedia {
 namespace {
@@ -61,6 +62,7 @@ LabTable estimateTable(EstimateOptions o, const StopSignal& stop) {
   std::size_t total = 0, done = 0;
   for (const CanonicalFunction& f : functions)
     total += estimators.size() * problemChoices(o.problem, f).size();
+  TrialJournal journal(o.lab.resume, o.lab.identity);
   LabProgress progress("medialab estimate", total, o.lab.quiet);
   for (const LabEstimator& estimator : estimators) {
     for (const CanonicalFunction& function : functions) {
@@ -74,9 +76,10 @@ LabTable estimateTable(EstimateOptions o, const StopSignal& stop) {
           ++done;
           continue;
         }
-        const TrialStats stats = runTrialsInParallel(
-            estimator, problem, o.plan, rowSeed(o.lab.seed, estimator.label(), function.about().name, choice),
-            o.trials, stop.flag());
+        const std::uint64_t seed = rowSeed(o.lab.seed, estimator.label(), function.about().name, choice);
+        const TrialStats stats = journal.recall(seed, stop.flag(), [&] {
+          return runTrialsInParallel(estimator, problem, o.plan, seed, o.trials, stop.flag());
+        });
         if (stop) {
           table.markStopped();
           return table;

@@ -10,6 +10,7 @@
 #include "base/writable.h"
 #include "image/image.h"
 #include "tools/medialab/heatmap_picture.h"
+#include "tools/medialab/journal.h"
 
 namespace pbrtmedia {
 namespace {
@@ -21,7 +22,8 @@ constexpr std::uint64_t kTrialsPerLookup = 4;
 constexpr double kRounding = 1e-9;
 
 Heatmap::Pixel measurePixel(const HeatmapOptions& o, const CanonicalFunction& function,
-                            const LabEstimator& estimator, double transmittance, double efficiency) {
+                            const LabEstimator& estimator, double transmittance, double efficiency,
+                            TrialJournal& journal, const StopSignal& stop) {
   ProblemOptions at = o.problem;
   at.depths = {depthReachedOf(estimator.law(), transmittance)};
   at.efficiencies = {efficiency};
@@ -29,9 +31,9 @@ Heatmap::Pixel measurePixel(const HeatmapOptions& o, const CanonicalFunction& fu
   const LabProblem problem = makeProblem(at, function, choice);
   TrialLimit limit{.trials = o.trials};
   if (o.trials == 0) limit = {.trials = kTrialsPerLookup * o.lookups, .lookups = o.lookups};
+  const std::uint64_t seed = rowSeed(o.lab.seed, estimator.label(), function.about().name, choice);
   const TrialStats stats =
-      runTrials(estimator, problem, o.plan,
-                rowSeed(o.lab.seed, estimator.label(), function.about().name, choice), limit);
+      journal.recall(seed, stop.flag(), [&] { return runTrials(estimator, problem, o.plan, seed, limit); });
   Heatmap::Pixel pixel;
   pixel.exact = problem.transmittance(estimator.law());
   pixel.mean = stats.value.mean();
@@ -196,6 +198,7 @@ Heatmap measureHeatmap(const HeatmapOptions& o, std::vector<LabTable::Skipped>& 
                                formatNumber(least));
     }
   }
+  TrialJournal journal(o.lab.resume, o.lab.identity);
   LabProgress progress("medialab heatmap", estimators.size() * static_cast<std::size_t>(o.height),
                        o.lab.quiet);
   for (const LabEstimator& estimator : estimators) {
@@ -212,7 +215,7 @@ Heatmap measureHeatmap(const HeatmapOptions& o, std::vector<LabTable::Skipped>& 
         const int x = static_cast<int>(i);
         if (stop) return;
         layer.pixels[map.index(x, y)] =
-            measurePixel(o, function, estimator, map.transmittance(x), map.efficiency(y));
+            measurePixel(o, function, estimator, map.transmittance(x), map.efficiency(y), journal, stop);
       });
       progress.update(map.layers.size() * static_cast<std::size_t>(o.height) + static_cast<std::size_t>(y),
                       estimator.label());
@@ -227,12 +230,12 @@ int runHeatmap(const HeatmapOptions& o) {
   LabOptions lab = o.lab;
   std::string prefix = o.lab.outfile;
   if (const std::filesystem::path name = prefix;
-      extensionOf(name) == ".csv" || extensionOf(name) == ".json") {
+      extensionOf(name) == ".csv" || extensionOf(name) == ".json" || extensionOf(name) == ".txt") {
     lab.format = tableFormat(o.lab);
     prefix = std::filesystem::path(name).replace_extension().string();
   }
-  lab.format = lab.format.value_or(TableFormat::Csv);
-  if (!prefix.empty()) lab.outfile = prefix + (lab.format == TableFormat::Csv ? ".csv" : ".json");
+  if (!lab.format) lab.format = prefix.empty() ? tableFormat(o.lab) : TableFormat::Csv;
+  if (!prefix.empty()) lab.outfile = prefix + std::string(extensionOf(*lab.format));
   if (!prefix.empty()) checkWritable(prefix + "-variance-lookups.png");  // the longest name of all
   checkOutput(lab);
   const ThreadLimit limit(o.lab.threads);

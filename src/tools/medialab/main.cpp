@@ -28,21 +28,35 @@ constexpr unsigned kMostSamples = 1u << 24;
 
 /// Of a command that writes a table.
 void addTableOptions(CLI::App* c, LabOptions& o) {
-  c->add_option("-o,--outfile", o.outfile, "file to write, .csv or .json (standard output)");
-  const std::map<std::string, TableFormat> formats{{"csv", TableFormat::Csv}, {"json", TableFormat::Json}};
-  c->add_option("--format", o.format, "csv or json (as the file's name ends, or csv)")
+  c->add_option("-o,--outfile", o.outfile, "file to write, .csv, .json or .txt (standard output)");
+  std::map<std::string, TableFormat> formats;
+  for (const auto& [name, format] : kTableFormats) formats.emplace(name, format);
+  c->add_option("--format", o.format,
+                "csv, json or text (as the file's name ends; without a file text on a terminal, else csv)")
       ->transform(oneOf(formats))
       ->type_name("NAME");
 }
 
-void addLabOptions(CLI::App* c, LabOptions& o, const std::string& command) {
-  o.command = command;
+/// The words that were typed, told apart by what they are for.
+struct Words {
+  std::string command, identity;
+};
+
+void addLabOptions(CLI::App* c, LabOptions& o, const Words& words) {
+  o.command = words.command;
+  o.identity = words.identity;
   c->add_option("--seed", o.seed, "of all random numbers (1)")->check(wholeNumber<std::uint64_t>(0, ~0ull));
   c->add_option("--nthreads,--threads", o.threads, "0: one per processor (0); results do not depend on it")
       ->check(wholeNumber(0u, kMostThreads))
       ->type_name("N");
   c->add_flag("--quiet", o.quiet, "show no progress");
   c->add_flag("--no-seconds", o.omitSeconds, "leave out measured times, all that differs from run to run");
+}
+
+/// Of a command whose measurements may be kept while they are made.
+void addResume(CLI::App* c, LabOptions& o) {
+  c->add_option("--resume", o.resume,
+                "file that keeps what is measured: the same command goes on where it was stopped or killed");
 }
 
 void addSelection(CLI::App* c, EstimatorSelection& o) {
@@ -126,14 +140,15 @@ void addList(CLI::App& app, ListOptions& o, Run& run) {
   c->callback([&o, &run] { run = [&o] { return runList(o); }; });
 }
 
-void addEstimate(CLI::App& app, EstimateOptions& o, const std::string& command, Run& run) {
+void addEstimate(CLI::App& app, EstimateOptions& o, const Words& words, Run& run) {
   CLI::App* c = app.add_subcommand("estimate", "Measure mean, variance and cost of estimators");
   c->footer(
       "A row for each estimator, function, depth, control and lower control. A trial is the mean of\n"
       "--samples-per-estimate estimates; all columns speak of one trial. non_finite counts trials that were\n"
       "NaN or infinite; mean and variance leave them out.");
-  addLabOptions(c, o.lab, command);
+  addLabOptions(c, o.lab, words);
   addTableOptions(c, o.lab);
+  addResume(c, o.lab);
   addSelection(c, o.selection);
   addFunctions(c, o.functions, "(all)");
   addProblem(c, o.problem, true);
@@ -149,7 +164,7 @@ void addEstimate(CLI::App& app, EstimateOptions& o, const std::string& command, 
   });
 }
 
-void addHeatmap(CLI::App& app, HeatmapOptions& o, const std::string& command, Run& run) {
+void addHeatmap(CLI::App& app, HeatmapOptions& o, const Words& words, Run& run) {
   CLI::App* c = app.add_subcommand("heatmap", "Map variance and cost over transmittance and control");
   c->footer(
       "Transmittance, under the law, runs from 0.99 at the left to 0.01 at the right, depth / depth of\n"
@@ -157,8 +172,9 @@ void addHeatmap(CLI::App& app, HeatmapOptions& o, const std::string& command, Ru
       "P.csv (or P.json), P.exr, P-variance.png, P-variance-lookups.png and P-variance-seconds.png. The\n"
       "best is chosen among the unbiased estimators, which must serve one law; all: those of the\n"
       "exponential one, unless --law tells another.");
-  addLabOptions(c, o.lab, command);
+  addLabOptions(c, o.lab, words);
   addTableOptions(c, o.lab);
+  addResume(c, o.lab);
   addSelection(c, o.selection);
   addFunction(c, o.function);
   addProblem(c, o.problem, false);
@@ -180,12 +196,13 @@ void addHeatmap(CLI::App& app, HeatmapOptions& o, const std::string& command, Ru
   c->callback([&o, &run] { run = [&o] { return runHeatmap(o); }; });
 }
 
-void addConverge(CLI::App& app, ConvergeOptions& o, const std::string& command, Run& run) {
+void addConverge(CLI::App& app, ConvergeOptions& o, const Words& words, Run& run) {
   CLI::App* c = app.add_subcommand("converge", "Measure the error of the mean of 1, 2, 4, ... estimates");
   c->footer(
       "Slopes belong to straight lines through log(rmse), with standard errors from those of the points.");
-  addLabOptions(c, o.lab, command);
+  addLabOptions(c, o.lab, words);
   addTableOptions(c, o.lab);
+  addResume(c, o.lab);
   addSelection(c, o.selection);
   addFunctions(c, o.functions, "(cosine)");
   addProblem(c, o.problem, true);
@@ -196,9 +213,9 @@ void addConverge(CLI::App& app, ConvergeOptions& o, const std::string& command, 
   c->callback([&o, &run] { run = [&o] { return runConverge(o); }; });
 }
 
-void addProfile(CLI::App& app, ProfileOptions& o, const std::string& command, Run& run) {
+void addProfile(CLI::App& app, ProfileOptions& o, const Words& words, Run& run) {
   CLI::App* c = app.add_subcommand("profile", "Show a line: extinction, controls, points of one estimate");
-  addLabOptions(c, o.lab, command);
+  addLabOptions(c, o.lab, words);
   addTableOptions(c, o.lab);
   addSelection(c, o.selection);
   addFunction(c, o.function);
@@ -208,7 +225,7 @@ void addProfile(CLI::App& app, ProfileOptions& o, const std::string& command, Ru
   c->callback([&o, &run] { run = [&o] { return runProfile(o); }; });
 }
 
-void addStress(CLI::App& app, StressOptions& o, const std::string& command, Run& run) {
+void addStress(CLI::App& app, StressOptions& o, const Words& words, Run& run) {
   CLI::App* c = app.add_subcommand("stress", "Try estimators on stiff and extreme lines");
   c->footer(
       "Verdicts: pass; expected (what the traits predict cannot work); undecided (too few trials for\n"
@@ -216,7 +233,7 @@ void addStress(CLI::App& app, StressOptions& o, const std::string& command, Run&
       "time. Exit status 1 when any verdict is fail, or missing as the run was stopped. Seconds are those\n"
       "of all trials of a cell. The whole table: medialab stress -o stress.csv, some five minutes on two\n"
       "processors.");
-  addLabOptions(c, o.lab, command);
+  addLabOptions(c, o.lab, words);
   addTableOptions(c, o.lab);
   addSelection(c, o.selection);
   c->add_option("--case", o.cases, "names of cases, or beginnings of names (all)")
@@ -226,19 +243,19 @@ void addStress(CLI::App& app, StressOptions& o, const std::string& command, Run&
   c->callback([&o, &run] { run = [&o] { return runStress(o); }; });
 }
 
-void addPrecision(CLI::App& app, LabOptions& o, const std::string& command, Run& run) {
+void addPrecision(CLI::App& app, LabOptions& o, const Words& words, Run& run) {
   CLI::App* c = app.add_subcommand("precision", "Compare float with double where it matters");
   c->footer(
       "Runs ratio tracking, ray marching and 1 - T with positions, weights and sums in float and in\n"
       "double on the same random numbers.");
-  addLabOptions(c, o, command);
+  addLabOptions(c, o, words);
   addTableOptions(c, o);
   c->callback([&o, &run] { run = [&o] { return runPrecision(o); }; });
 }
 
-void addDocs(CLI::App& app, DocsOptions& o, const std::string& command, Run& run) {
+void addDocs(CLI::App& app, DocsOptions& o, const Words& words, Run& run) {
   CLI::App* c = app.add_subcommand("docs", "Write the page docs/estimators.md, with measured tables");
-  addLabOptions(c, o.lab, command);
+  addLabOptions(c, o.lab, words);
   c->add_option("-o,--outfile", o.lab.outfile, "file to write, .md (standard output)");
   c->add_option("--trials", o.trials, "of each measured cell (20000)")->check(wholeNumber(2ull, kMostTrials));
   c->callback([&o, &run] { run = [&o] { return runDocs(o); }; });
@@ -249,7 +266,7 @@ void addDocs(CLI::App& app, DocsOptions& o, const std::string& command, Run& run
 int medialabMain(int argc, char** argv) {
   CLI::App app{"Measures transmittance estimators on lines whose answers are known", "medialab"};
   app.require_subcommand(1);
-  const std::string command = commandText(argc, argv);
+  const Words words{commandText(argc, argv), identityText(argc, argv)};
   ListOptions list;
   EstimateOptions estimate;
   HeatmapOptions heatmap;
@@ -260,13 +277,13 @@ int medialabMain(int argc, char** argv) {
   DocsOptions docs;
   Run run;
   addList(app, list, run);
-  addEstimate(app, estimate, command, run);
-  addHeatmap(app, heatmap, command, run);
-  addConverge(app, converge, command, run);
-  addProfile(app, profile, command, run);
-  addStress(app, stress, command, run);
-  addPrecision(app, precision, command, run);
-  addDocs(app, docs, command, run);
+  addEstimate(app, estimate, words, run);
+  addHeatmap(app, heatmap, words, run);
+  addConverge(app, converge, words, run);
+  addProfile(app, profile, words, run);
+  addStress(app, stress, words, run);
+  addPrecision(app, precision, words, run);
+  addDocs(app, docs, words, run);
   return runTool(app, argc, argv, run);
 }
 

@@ -12,6 +12,15 @@ namespace pbrtmedia {
 /// be joined, in a fixed order for a result that does not depend on threads. Pébay 2008, SAND2008-6212.
 class Moments {
  public:
+  /// All there is to it: what is made of it goes on as it would have.
+  struct State {
+    std::uint64_t count = 0;
+    double mean = 0, m2 = 0, m3 = 0, m4 = 0;
+  };
+  Moments() = default;
+  explicit Moments(const State& s) : count_(s.count), mean_(s.mean), m2_(s.m2), m3_(s.m3), m4_(s.m4) {}
+  State state() const { return {count_, mean_, m2_, m3_, m4_}; }
+
   void add(double x) {
     const double n1 = static_cast<double>(count_);
     ++count_;

@@ -2,7 +2,9 @@
 #include "tools/medialab/table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <stdexcept>
@@ -36,6 +38,17 @@ struct ToCsv {
   std::string operator()(bool yes) const { return yes ? "true" : "false"; }
 };
 
+/// As CSV, but for people: numbers of five digits.
+struct ToText : ToCsv {
+  using ToCsv::operator();
+  std::string operator()(const std::string& text) const { return text; }
+  std::string operator()(double number) const {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.5g", number);
+    return text.data();
+  }
+};
+
 }  // namespace
 
 // Out of line, as GCC 12 takes the moved-from strings of many inlined variants for uninitialised ones.
@@ -58,8 +71,16 @@ std::size_t LabTable::column(std::string_view name) const {
   return static_cast<std::size_t>(at - columns_.begin());
 }
 
-void LabTable::write(std::ostream& out, TableFormat format) const {
-  format == TableFormat::Csv ? writeCsv(out) : writeJson(out);
+void LabTable::write(std::ostream& out, TableFormat format,
+                     const std::vector<std::pair<std::string, Cell>>& provenance) const {
+  switch (format) {
+    case TableFormat::Csv:
+      return writeCsv(out);
+    case TableFormat::Json:
+      return writeJson(out, provenance);
+    case TableFormat::Text:
+      return writeText(out);
+  }
 }
 
 void LabTable::writeCsv(std::ostream& out) const {
@@ -76,22 +97,54 @@ void LabTable::writeCsv(std::ostream& out) const {
   }
 }
 
-void LabTable::writeJson(std::ostream& out) const {
+void LabTable::writeJson(std::ostream& out,
+                         const std::vector<std::pair<std::string, Cell>>& provenance) const {
   using Json = nlohmann::ordered_json;
-  Json document{{"command", command_},
-                {"notes", notes_},
-                {"skipped", Json::array()},
-                {"stopped", stopped_},
-                {"rows", Json::array()}};
+  const auto json = [](const Cell& cell) {
+    return std::visit([](const auto& value) { return Json(value); }, cell.value());
+  };
+  Json made = Json::object();
+  for (const auto& [name, value] : provenance) made[name] = json(value);
+  Json document{{"command", command_},      {"provenance", std::move(made)}, {"notes", notes_},
+                {"skipped", Json::array()}, {"stopped", stopped_},           {"rows", Json::array()}};
   for (const Skipped& s : skipped_) document["skipped"].push_back({{"what", s.what}, {"reason", s.reason}});
   for (const auto& row : rows_) {
     Json object = Json::object();
     for (std::size_t i = 0; i < row.size(); ++i) {
-      object[columns_[i]] = std::visit([](const auto& value) { return Json(value); }, row[i].value());
+      object[columns_[i]] = json(row[i]);
     }
     document["rows"].push_back(std::move(object));
   }
   out << document.dump(1, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+void LabTable::writeText(std::ostream& out) const {
+  std::vector<std::vector<std::string>> texts;
+  std::vector<std::size_t> widths;
+  for (const std::string& name : columns_) widths.push_back(name.size());
+  for (const auto& row : rows_) {
+    std::vector<std::string>& line = texts.emplace_back();
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      line.push_back(std::visit(ToText{}, row[i].value()));
+      widths[i] = std::max(widths[i], line.back().size());
+    }
+  }
+  const auto isWord = [&](std::size_t i) {
+    return !rows_.empty() && std::holds_alternative<std::string>(rows_.front()[i].value());
+  };
+  const auto print = [&](const std::vector<std::string>& line) {
+    std::string text;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const std::string blanks(widths[i] - line[i].size(), ' ');
+      text += (i > 0 ? "  " : "") + (isWord(i) ? line[i] + blanks : blanks + line[i]);
+    }
+    out << text.substr(0, text.find_last_not_of(' ') + 1) << '\n';
+  };
+  print(columns_);
+  for (const auto& line : texts) print(line);
+  for (const std::string& text : notes_) out << text << '\n';
+  for (const Skipped& s : skipped_) out << "skipped: " << s.what << ": " << s.reason << '\n';
+  if (stopped_) out << "stopped before the end: rows are missing\n";
 }
 
 }  // namespace pbrtmedia

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
 namespace pbrtmedia {
 
-enum class TableFormat { Csv, Json };
+enum class TableFormat { Csv, Json, Text };
+constexpr std::array<std::pair<std::string_view, TableFormat>, 3> kTableFormats{
+    {{"csv", TableFormat::Csv}, {"json", TableFormat::Json}, {"text", TableFormat::Text}}};
 
 /// One value of a table.
 class LabCell {
@@ -57,12 +61,16 @@ class LabTable {
 
   /// CSV: "# ..." lines for command, notes, what was skipped and whether the run was stopped, then a header
   /// line and the rows. JSON: an object with command, notes, skipped, stopped and rows, an object each;
-  /// numbers that are not finite become null (CSV: nan, inf). Doubles read back exactly.
-  void write(std::ostream& out, TableFormat format) const;
+  /// numbers that are not finite become null (CSV: nan, inf); `provenance`, names and values, is an object of
+  /// it. Doubles of both read back exactly. Text: aligned columns for a terminal, numbers rounded to five
+  /// digits, then notes and what was skipped.
+  void write(std::ostream& out, TableFormat format,
+             const std::vector<std::pair<std::string, Cell>>& provenance = {}) const;
 
  private:
   void writeCsv(std::ostream& out) const;
-  void writeJson(std::ostream& out) const;
+  void writeJson(std::ostream& out, const std::vector<std::pair<std::string, Cell>>& provenance) const;
+  void writeText(std::ostream& out) const;
 
   std::string command_;
   std::vector<std::string> columns_, notes_;
