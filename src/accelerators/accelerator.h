@@ -103,6 +103,9 @@ class UserGeometry {
   /// leaves the surface it starts on.
   virtual std::optional<Root> intersect(std::uint32_t primitive, const Ray& ray, double tMin, double tMax,
                                         std::span<const float> excludedT) const = 0;
+  /// Whether two primitives are parts of one surface: what a ray starts on or has crossed on `a` is among the
+  /// `excludedT` of `b`.
+  virtual bool continues(std::uint32_t a, std::uint32_t b) const { return a == b; }
 };
 
 /// Decides whether a hit counts (alpha, shadowalpha). Thread-safe.

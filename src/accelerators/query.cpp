@@ -196,7 +196,8 @@ bool Query::hitUser(const GeometryRecord& record, std::uint32_t primitive, const
   std::array<float, Exclusions::kCapacity + 16> excludedT;
   std::size_t count = 0;
   for (const auto& entry : exclusions_.entries()) {
-    if (entry.id == id) excludedT[count++] = entry.t;
+    const bool isOfGeometry = entry.id.instance == id.instance && entry.id.geometry == id.geometry;
+    if (isOfGeometry && record.user->continues(entry.id.primitive, primitive)) excludedT[count++] = entry.t;
   }
   while (true) {
     const auto root =

@@ -36,6 +36,8 @@ ShapePlan readCone(const ShapeInput& input);
 ShapePlan readParaboloid(const ShapeInput& input);
 ShapePlan readHyperboloid(const ShapeInput& input);
 
+ShapePlan readCurve(const ShapeInput& input);
+
 ShapePlan readTriangleMesh(const ShapeInput& input);
 ShapePlan readPlyMesh(const ShapeInput& input);
 ShapePlan readLoopSubdivision(const ShapeInput& input);

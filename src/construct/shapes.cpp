@@ -11,12 +11,13 @@ namespace {
 
 using ReadShape = ShapePlan (*)(const ShapeInput&);
 
-constexpr std::array<Plugin<ReadShape>, 11> kShapes = {{{"sphere", readSphere},
+constexpr std::array<Plugin<ReadShape>, 12> kShapes = {{{"sphere", readSphere},
                                                         {"cylinder", readCylinder},
                                                         {"disk", readDisk},
                                                         {"cone", readCone},
                                                         {"paraboloid", readParaboloid},
                                                         {"hyperboloid", readHyperboloid},
+                                                        {"curve", readCurve},
                                                         {"trianglemesh", readTriangleMesh},
                                                         {"plymesh", readPlyMesh},
                                                         {"loopsubdiv", readLoopSubdivision},

@@ -6,6 +6,7 @@
 
 #include "construct/texturable.h"
 #include "scene/description.h"
+#include "shapes/curves.h"
 #include "shapes/shape.h"
 
 namespace pbrtmedia {
@@ -16,6 +17,8 @@ namespace pbrtmedia {
 struct ShapePlan {
   std::function<std::unique_ptr<Shape>(Diagnostics&)> make;
   std::optional<TextureUse<float>> alpha, shadowAlpha;
+  /// Of a curve: what `make` makes the shape of. Strands of others that stand alike may be added to it.
+  std::shared_ptr<Curves::Params> strands;
 };
 
 /// Reads a Shape. Nothing for an unknown type, when no parameter has been looked at; a plan without `make`

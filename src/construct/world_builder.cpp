@@ -27,6 +27,7 @@ WorldBuilder::WorldBuilder(SceneDescription& scene, Textures& textures, Material
 
 void WorldBuilder::read(bool quick) {
   markUsedObjects();
+  dropMediaOfCurves();
   markUsedMedia();
   warnOfMediaThatStay();
   for (std::size_t i = 0; i < scene_.media.size(); ++i) {
@@ -58,6 +59,7 @@ void WorldBuilder::readShapes() {
     leaveIfStopped();
     if (isUsed(shape)) {
       shapes_.push_back(readShape(shape, diagnostics_));
+      joinStrands(shapes_.size() - 1);
       continue;
     }
     Diagnostics messages;
@@ -65,6 +67,21 @@ void WorldBuilder::readShapes() {
     shapes_.push_back(readShape(shape, messages));
     handOver(messages, false, "object");
   }
+}
+
+void WorldBuilder::joinStrands(std::size_t index) {
+  ShapeRead& read = shapes_[index];
+  if (!read.plan || !read.plan->strands || read.material.own) return;
+  ShapeDescription& shape = scene_.shapes[index];
+  const Curves::Params& strands = *read.plan->strands;
+  const auto [first, isFirst] = firstStrands_.try_emplace(
+      StrandKey{shape.ctm.get(), shape.media.get(), read.material.material, read.material.isNone,
+                shape.object, shape.reverseOrientation, strands.type, strands.splitDepth},
+      index);
+  if (isFirst) return;
+  shapes_[first->second].plan->strands->append(strands);
+  read.plan.reset();
+  shape.params = {};
 }
 
 WorldBuilder::ShapeRead WorldBuilder::readShape(ShapeDescription& shape, Diagnostics& diagnostics) {
@@ -75,6 +92,12 @@ WorldBuilder::ShapeRead WorldBuilder::readShape(ShapeDescription& shape, Diagnos
   if (plan) in.reportUnused();
   if (plan && plan->make) read.plan = std::move(plan);
   if (!read.plan || !isUsed(shape)) return read;
+  if (shape.areaLight != kNone && read.plan->strands) {
+    diagnostics.tolerated(shape.location, contextOf(shape) +
+                                              ": curves are no area lights: it does not emit; PBRT-v3 ends "
+                                              "here. Thin cylinders can emit");
+    shape.areaLight = kNone;
+  }
   if (shape.areaLight != kNone && shape.ctm->isAnimated()) {
     diagnostics.warning(shape.location,
                         contextOf(shape) + ": area lights on moving shapes are ignored, as in PBRT-v3");

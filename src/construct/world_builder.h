@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "construct/lights.h"
@@ -53,6 +55,9 @@ class WorldBuilder {
   };
   void handOver(const Diagnostics& messages, bool isUsed, std::string_view what);
   void readShapes();
+  /// Gives the strands of a curve to an earlier one that stands alike, so that a file may have a directive
+  /// for each of a million hairs.
+  void joinStrands(std::size_t shape);
   ShapeRead readShape(ShapeDescription& shape, Diagnostics& diagnostics);
   void markUsedObjects();
   void markUsedMedia();
@@ -60,6 +65,8 @@ class WorldBuilder {
     return shape.object == kNone || objectUsed_[static_cast<std::size_t>(shape.object)];
   }
   void warnOfMediaThatStay();
+  /// Curves have no inside.
+  void dropMediaOfCurves();
   bool isOpaque(const ShapeDescription& shape) const;
   bool movesWith(const ShapeDescription& shape, const MediumUse& use) const;
   void limitPlacements();
@@ -80,6 +87,10 @@ class WorldBuilder {
   Materials& materials_;
   Diagnostics& diagnostics_;
   std::vector<ShapeRead> shapes_;
+  /// CTM, media, material and whether there is one, object, orientation; type and depth of the curve.
+  using StrandKey = std::tuple<const TransformPair*, const MediumPair*, std::int32_t, bool, std::int32_t,
+                               bool, CurveType, int>;
+  std::map<StrandKey, std::size_t> firstStrands_;
   std::vector<std::optional<LightPlan>> lights_;
   std::vector<std::optional<DiffuseAreaLight::Params>> areaLights_;
   std::vector<std::optional<MediumPlan>> mediumPlans_;

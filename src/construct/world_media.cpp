@@ -57,6 +57,23 @@ void WorldBuilder::warnOfMediaThatStay() {
 }
 
 /// Whether nobody looks through the shape, whatever its textures are.
+void WorldBuilder::dropMediaOfCurves() {
+  const ShapeDescription* first = nullptr;
+  std::size_t count = 0;
+  const auto none = std::make_shared<const MediumPair>();
+  for (ShapeDescription& shape : scene_.shapes) {
+    if (shape.type != "curve" || shape.media->inside.index == shape.media->outside.index) continue;
+    if (isUsed(shape) && ++count == 1) first = &shape;
+    shape.media = none;
+  }
+  if (first == nullptr) return;
+  diagnostics_.tolerated(
+      first->location,
+      "Shape \"curve\": curves have no inside, so they bound no media: MediumInterface is left out for " +
+          std::to_string(count) + (count == 1 ? " curve" : " curves") +
+          "; PBRT-v3 changes media at each hit. The same name twice says what is around them");
+}
+
 bool WorldBuilder::isOpaque(const ShapeDescription& shape) const {
   if (shape.material == kNone) return true;  // the default matte
   constexpr std::array<std::string_view, 5> kOpaque = {"matte", "mirror", "metal", "plastic", "substrate"};

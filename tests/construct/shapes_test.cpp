@@ -9,6 +9,11 @@ namespace {
 
 Attempt with(const std::string& shape) { return attemptWorld(shape); }
 
+/// A bent strand; of a ribbon two normals.
+const std::string kPoints = "\"point P\" [ -1 -1 0 -.4 .5 .3 .5 -.3 0 1 1 .2 ] ";
+const std::string kCurve = "Shape \"curve\" \"float width\" .6 " + kPoints;
+const std::string kNormals = "\"normal N\" [ 0 0 1 .6 0 .8 ] ";
+
 /// Two triangles in the plane z = 0.
 const std::string kMesh =
     "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 -1 0 1 -1 0 1 1 0 -1 1 0 ] ";
@@ -94,6 +99,33 @@ TEST(ConstructShape, EveryParameterOfMeshesHasItsEffect) {
              with, surfaces);
 }
 
+TEST(ConstructShape, EveryParameterOfCurvesHasItsEffect) {
+  const std::string five = "\"point P\" [ -1 -1 0 -.4 .5 .3 .5 -.3 0 1 1 .2 .2 1 .1 ] ";
+  const std::string wide = "Shape \"curve\" \"float width\" .6 ";
+  const std::string ribbon = kCurve + "\"string type\" \"ribbon\" " + kNormals;
+  expectEffects({{kCurve, "Shape \"curve\" \"float width\" .4 " + kPoints},
+                 {kCurve, kCurve + "\"float width0\" .3"},
+                 {kCurve, kCurve + "\"float width1\" .3"},
+                 {kCurve, kCurve + "\"string basis\" \"bspline\""},
+                 {kCurve, kCurve + "\"string type\" \"cylinder\""},
+                 {kCurve, ribbon},
+                 {ribbon, kCurve + "\"string type\" \"ribbon\" \"normal N\" [ 0 0 1 0 .6 .8 ]"},
+                 {wide + five + "\"string basis\" \"bspline\"",
+                  wide + five + "\"string basis\" \"bspline\" \"integer degree\" 2"},
+                 {kCurve, "Translate .2 0 0 " + kCurve},
+                 {kCurve, "ReverseOrientation " + kCurve},
+                 {kCurve, "Scale -1 1 1 " + kCurve}},
+                with, surfaces);
+  expectSame({{kCurve, kCurve + "\"string type\" \"flat\" \"string basis\" \"bezier\" \"integer degree\" 3"},
+              {kCurve, kCurve + "\"float width0\" .6 \"float width1\" .6"},
+              {kCurve, kCurve + "\"integer splitdepth\" 3"},
+              {kCurve + "\"integer splitdepth\" 1", kCurve + "\"float splitdepth\" 1"},
+              {"Shape \"curve\" " + kPoints, "Shape \"curve\" \"float width\" 1 " + kPoints}},
+             with, surfaces);
+  EXPECT_TRUE(with(kCurve + "\"integer splitdepth\" 2000000000").isSilent());
+  EXPECT_TRUE(with(kCurve + "\"integer splitdepth\" -5").isSilent());
+}
+
 TEST(ConstructShape, TexturesCutWhereTheyAreZero) {
   const std::string texture =
       "Texture \"a\" \"float\" \"checkerboard\" \"float uscale\" 2 \"float vscale\" 2 ";
@@ -108,7 +140,33 @@ TEST(ConstructShape, SaysWhatIsWrongAndWhere) {
         "which gives 67108864 triangles; expected at most 16777216, so up to 11 levels", ""},
        {"Shape \"shpere\"", "Shape: unknown type \"shpere\"; did you mean \"sphere\"?", "t.pbrt:2:7",
         kTolerated},
-       {"Shape \"curve\"", "unknown type \"curve\"", "t.pbrt:2:7", kTolerated},
+       {"Shape \"cruve\"", "unknown type \"cruve\"; did you mean \"curve\"?", "t.pbrt:2:7", kTolerated},
+       {"Shape \"curve\"", "parameter \"point P\" is missing; the shape is left out", "t.pbrt:2:1",
+        kTolerated},
+       {"Shape \"curve\" \"point P\" [ 0 0 0 1 0 0 2 0 0 ]",
+        "P: expected 4 points and 3 for each further segment, found 3 points", "t.pbrt:2:1", kTolerated},
+       {"Shape \"curve\" \"point P\" [ 0 0 0 1 0 0 2 0 0 ] \"string basis\" \"bspline\"",
+        "P: expected 4 points or more, found 3 points", "", kTolerated},
+       {kCurve + "\"integer degree\" 4", "degree: expected 2 or 3, found 4", "", kTolerated},
+       {kCurve + "\"string basis\" \"hermite\"", "unknown basis \"hermite\"", "", kTolerated},
+       {kCurve + "\"string type\" \"round\"",
+        "unknown type \"round\"; known: flat, ribbon, cylinder; taken as "
+        "cylinder",
+        "", kTolerated},
+       {kCurve + "\"string type\" \"ribbon\"", "N: expected 2 normals", "", kTolerated},
+       {kCurve + "\"string type\" \"ribbon\" \"normal N\" [ 0 0 1 ]", "N: expected 2 normals", "",
+        kTolerated},
+       {kCurve + "\"string type\" \"ribbon\" \"normal N\" [ 0 0 1 0 0 0 ]",
+        "N: expected normals of finite length above 0", "", kTolerated},
+       {kCurve + "\"float width0\" -1", "\"width0\": found -1, expected >= 0; taken without its sign", "",
+        kTolerated},
+       {"Shape \"curve\" \"float width\" 0 " + kPoints,
+        "the curve has no width or no length; the shape is left out", "", kTolerated},
+       {"Shape \"curve\" \"point P\" [ 1 1 1 1 1 1 1 1 1 1 1 1 ]", "the curve has no width or no length", "",
+        kTolerated},
+       {kCurve + "\"float alpha\" 0", "unknown parameter \"alpha\"", "", kTolerated},
+       {"AreaLightSource \"diffuse\" " + kCurve, "curves are no area lights: it does not emit", "",
+        kTolerated},
        {"Shape \"sphere\" \"float radius\" 0", "radius: expected a finite number > 0, found 0", "t.pbrt:2:1",
         kTolerated},
        {"Shape \"sphere\" \"integer radius\" 1", "\"radius\": found type integer, expected float",
@@ -179,9 +237,15 @@ TEST(ConstructShape, WarnsOfWhatAMeshLeavesOut) {
   EXPECT_TRUE(with(kMesh + "\"float st\" [ 0 0 0 0 0 0 0 0 1 1 ]").warns("\"st\""));
 }
 
+TEST(ConstructShape, SaysThatNormalsAreForRibbons) {
+  const Attempt a = with(kCurve + kNormals);
+  EXPECT_TRUE(a.warns("\"N\" is for curves of type ribbon only")) << a.messages();
+  EXPECT_EQ(surfaces(a), surfaces(with(kCurve)));
+}
+
 TEST(ConstructShape, LeavesUnknownShapesOut) {
-  const Attempt a = attemptWorld("Shape \"curve\" \"float width\" 1 Shape \"sphere\" \"float raduis\" 2");
-  ASSERT_TRUE(a.warns("unknown type \"curve\"")) << a.messages();
+  const Attempt a = attemptWorld("Shape \"blob\" \"float width\" 1 Shape \"sphere\" \"float raduis\" 2");
+  ASSERT_TRUE(a.warns("unknown type \"blob\"")) << a.messages();
   EXPECT_TRUE(a.warns("unknown parameter \"raduis\""));
   EXPECT_EQ(surfaces(a), surfaces(with("Shape \"sphere\"")));
 }

@@ -54,6 +54,54 @@ TEST(ConstructWorld, InstancesNest) {
   }
 }
 
+std::size_t primitiveCount(const Attempt& a) {
+  std::size_t count = 0;
+  for (const auto& group : a.made->scene->primitiveGroups()) count += group.size();
+  return count;
+}
+
+TEST(ConstructWorld, StrandsThatStandAlikeAreOneShape) {
+  const auto curve = [](int i, const std::string& more = "") {
+    const std::string y = std::to_string(0.4 * i - 0.5);
+    return "Shape \"curve\" \"float width\" .3 \"point P\" [ -1 " + y + " 0 -.3 " + y + " .2 .3 " + y +
+           " 0 1 " + y + " 0 ] " + more;
+  };
+  const Attempt one = with(curve(0) + kDisk + curve(1) + curve(2));
+  ASSERT_TRUE(one.made) << one.messages();
+  EXPECT_EQ(primitiveCount(one), 2u);
+  // Whatever stands between them, rays meet the same strands.
+  const std::string other = "Translate 0 0 0 ";  // a CTM of its own
+  const Attempt apart = with(curve(0) + kDisk + other + curve(1) + other + curve(2));
+  EXPECT_EQ(primitiveCount(apart), 4u);
+  EXPECT_EQ(surfaces(one), surfaces(apart));
+
+  const std::string mirror = "Material \"mirror\" ",
+                    fog = homogeneous("fog") + "MediumInterface \"fog\" \"fog\" ";
+  for (const std::string& between : {mirror, fog, std::string("ReverseOrientation "),
+                                     std::string("Scale 2 1 1 "), std::string("Material \"none\" ")}) {
+    const Attempt a = with(curve(0) + between + curve(1));
+    ASSERT_TRUE(a.made) << a.messages();
+    EXPECT_EQ(primitiveCount(a), between.find("none") == std::string::npos ? 2u : 1u) << between;
+  }
+  EXPECT_EQ(primitiveCount(with(curve(0) + curve(1, "\"string type\" \"cylinder\" "))), 2u);
+  EXPECT_EQ(primitiveCount(with(curve(0) + curve(1, "\"rgb Kd\" [ 1 0 0 ] "))), 2u);
+  EXPECT_EQ(primitiveCount(with(object("o", curve(0) + curve(1)) + curve(2) + instance("o"))), 2u);
+}
+
+TEST(ConstructWorld, CurvesBoundNoMedia) {
+  const std::string curve = "Shape \"curve\" \"point P\" [ -1 0 0 -.3 0 0 .3 0 0 1 0 0 ] ";
+  const std::string media = homogeneous("a") + homogeneous("b");
+  const Attempt a = with(media + "MediumInterface \"a\" \"b\" " + curve + curve);
+  EXPECT_TRUE(
+      a.warns("curves have no inside, so they bound no media: MediumInterface is left out for 2 curves"))
+      << a.messages();
+  for (const auto& group : a.made->scene->primitiveGroups()) {
+    for (const Primitive* primitive : group) EXPECT_TRUE(primitive->media.same());
+  }
+  EXPECT_FALSE(attemptWorld(media + "MediumInterface \"a\" \"b\" " + curve, {.strict = true}).made);
+  EXPECT_FALSE(with(media + "MediumInterface \"a\" \"a\" " + curve).warns("no inside"));
+}
+
 TEST(ConstructWorld, ObjectsThatAreNeverPlacedAreNotBuilt) {
   const Attempt a =
       with(object("o", homogeneous("m") + "MediumInterface \"m\" \"\" Material \"mirror\" " + kDisk) + kDisk);

@@ -33,10 +33,21 @@ struct ParityScene {
   /// 0.15 %.
   std::int64_t samplesOfMean;
 };
-constexpr ParityScene kScenes[] = {
-    {"smoke", 16, 16},       {"cylinder", 16, 16},       {"depth-of-field", 16, 16},  {"uber", 16, 16},
-    {"cornell-box", 16, 16}, {"glass", 16, 32},          {"2d-checkerboard", 16, 32}, {"projection", 16, 128},
-    {"spotfog", 16, 64},     {"killeroo-simple", 8, 32}, {"own-hyperboloid", 16, 16}, {"own-ao", 16, 16}};
+constexpr ParityScene kScenes[] = {{"smoke", 16, 16},
+                                   {"cylinder", 16, 16},
+                                   {"depth-of-field", 16, 16},
+                                   {"uber", 16, 16},
+                                   {"cornell-box", 16, 16},
+                                   {"glass", 16, 32},
+                                   {"2d-checkerboard", 16, 32},
+                                   {"projection", 16, 128},
+                                   {"spotfog", 16, 64},
+                                   {"killeroo-simple", 8, 32},
+                                   {"own-hyperboloid", 16, 16},
+                                    {"own-ao", 16, 16},
+                                   {"own-curve-flat", 16, 64},
+                                   {"own-curve-ribbon", 16, 64},
+                                   {"own-curve-cylinder", 16, 64}};
 
 std::ostream& operator<<(std::ostream& os, const ParityScene& scene) { return os << scene.name; }
 
