@@ -44,6 +44,16 @@ CubicBezier cubicOf(const Curves::Segment& s) {
   return {{Vec3d(s.p[0]), Vec3d(s.p[1]), Vec3d(s.p[2]), Vec3d(s.p[3])}};
 }
 
+/// The derivative; where that is 0 (doubled points, a cusp) one close by, or any direction.
+Vec3d tangent(const CubicBezier& c, double u) {
+  constexpr double kStep = 1e-3;
+  for (const double nearby : {u, u < 0.5 ? u + kStep : u - kStep}) {
+    const Vec3d d = c.derivative(nearby);
+    if (d != Vec3d{}) return d;
+  }
+  return {1, 0, 0};
+}
+
 }  // namespace
 
 bool Curves::isEmpty(const Segment& s) {
@@ -213,29 +223,27 @@ SurfaceInteraction Curves::interaction(const RayHit& hit, const Ray& ray) const 
   const double u{hit.uv.x}, v{hit.uv.y};
   const Vec3d o = objectFromWorld_.point(Vec3d(ray.o)), direction = objectFromWorld_.vector(Vec3d(ray.d));
   const CubicBezier spine = cubicOf(segmentOf(primitive));
-  Vec3d dpdu = spine.derivative(u);
-  if (dpdu == Vec3d{}) dpdu = spine.p[3] - spine.p[0];
+  const Vec3d dpdu = tangent(spine, u);
   const Vec3d d = normalize(direction);
   const RaySpace space(o, d, dpdu);
 
-  const double width = seenWidth(primitive, u, d);
-  Vec3d dpdv = type_ == CurveType::Ribbon ? cross(ribbonNormal(primitive, u), dpdu) : Vec3d{};
-  if (dpdv == Vec3d{}) dpdv = space.y;  // across the ray and dp/du
-  dpdv *= width / length(dpdv);
+  const Vec3d along = normalize(dpdu);
+  Vec3d across = type_ == CurveType::Ribbon ? cross(ribbonNormal(primitive, u), along) : Vec3d{};
+  if (across == Vec3d{}) across = space.y;  // the ray and dp/du
+  across = normalize(across);
   if (type_ == CurveType::Cylinder) {
     const double angle = -radians(lerp(v, -90.0, 90.0));
-    const Vec3d axis = normalize(dpdu);
-    dpdv = std::cos(angle) * dpdv + std::sin(angle) * cross(axis, dpdv);
+    across = std::cos(angle) * across + std::sin(angle) * cross(along, across);
   }
 
   SurfaceInteraction si;
   si.p = Point3f(o + double{hit.t} * direction);
   si.time = ray.time;
   si.wo = Vector3f(-d);
-  si.n = Normal3f((flips_ ? -1.0 : 1.0) * normalize(cross(dpdu, dpdv)));
+  si.n = Normal3f((flips_ ? -1.0 : 1.0) * normalize(cross(along, across)));
   si.uv = hit.uv;
   si.dpdu = Vector3f(dpdu);
-  si.dpdv = Vector3f(dpdv);
+  si.dpdv = Vector3f(seenWidth(primitive, u, d) * across);
   si.shading = {si.n, si.dpdu, si.dpdv, {}, {}};
   si.primitive = hit.id;
   SurfaceInteraction world = transformInteraction(worldFromObject_, si);

@@ -295,6 +295,14 @@ TEST(Curves, SegmentsWithoutLengthOrWidthAreLeftOut) {
   const auto si = Probe(curve).at(down(0, 0.05f));
   ASSERT_TRUE(si);
   EXPECT_TRUE(isFinite(si->n) && isFinite(si->dpdu) && isFinite(si->dpdv));
+  // Nor has a cusp, where a strand goes out and comes back the same way.
+  const Curves cusp(strand(CurveType::Flat, {{0, 0, 0}, {4, 0, 0}, {4, 0, 0}, {0, 0, 0}}, 0.2f, 0.2f), {});
+  for (const float x : {2.9999f, 3.0f}) {
+    const auto turn = Probe(cusp).at(down(x, 0.05f));
+    EXPECT_TRUE(!turn || (isFinite(turn->n) && isFinite(turn->dpdv)));
+  }
+  RayHit tip{5, {PrimitiveId::kNone, 0, 3}, {0.5f, 0.4f}};
+  EXPECT_TRUE(isFinite(cusp.interaction(tip, down(3, 0.01f)).n));
   // Along the strand itself: no hit, or a finite one.
   const auto along = Probe(curve).at(makeRay({-1, 0, 0}, {1, 0, 0}));
   EXPECT_TRUE(!along || (isFinite(along->n) && isFinite(along->dpdv)));
