@@ -44,7 +44,7 @@ constexpr ParityScene kScenes[] = {{"smoke", 16, 16},
                                    {"spotfog", 16, 64},
                                    {"killeroo-simple", 8, 32},
                                    {"own-hyperboloid", 16, 16},
-                                    {"own-ao", 16, 16},
+                                   {"own-ao", 16, 16},
                                    {"own-curve-flat", 16, 64},
                                    {"own-curve-ribbon", 16, 64},
                                    {"own-curve-cylinder", 16, 64}};
