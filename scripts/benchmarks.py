@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""Keeps the tables of docs/benchmarks.md and docs/comparing.md: nobody types a number there.
+"""Keeps the tables of docs/benchmarks.md and docs/convergence.md: nobody types a number there.
 
   benchmarks.py record FILE...   takes the results of a run into docs/benchmarks/: the JSON of layout_bench or estimator_bench
                                  (--json FILE), summary.csv of pbrt-compare, of one scene or of several. Rows that a run did not measure stay
@@ -15,7 +15,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGES = {"docs/benchmarks.md": ("layouts", "estimators", "renders"), "docs/comparing.md": ("comparison",)}
+PAGES = {"docs/benchmarks.md": ("layouts", "estimators", "renders"), "docs/convergence.md": ("comparison",)}
 DATA = "docs/benchmarks"
 AXES = {"samples": "samples", "lookups": "lookups", "seconds": "cpu"}  # that variance times cost is told of; in summary.csv
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""The tables of docs/benchmarks.md and docs/comparing.md must follow from recorded results."""
+"""The tables of docs/benchmarks.md and docs/convergence.md must follow from recorded results."""
 import json
 import pathlib
 import shutil
@@ -10,7 +10,7 @@ import unittest
 import benchmarks
 
 
-PAGE, COMPARING = benchmarks.PAGES
+PAGE, CONVERGENCE = benchmarks.PAGES
 
 
 class Benchmarks(unittest.TestCase):
@@ -29,8 +29,8 @@ class Benchmarks(unittest.TestCase):
 
     def test_the_page_is_what_the_command_writes(self):
         self.assertEqual(benchmarks.page(self.root, PAGE, self.text), self.text)
-        comparing = (benchmarks.ROOT / COMPARING).read_text()
-        self.assertEqual(benchmarks.page(self.root, COMPARING, comparing), comparing)
+        comparing = (benchmarks.ROOT / CONVERGENCE).read_text()
+        self.assertEqual(benchmarks.page(self.root, CONVERGENCE, comparing), comparing)
 
     def test_a_typed_number_is_seen(self):
         row = next(line for line in self.text.splitlines() if line.startswith("| `regular`"))
@@ -57,7 +57,7 @@ class Benchmarks(unittest.TestCase):
         path.write_text(f"scene,setting,biased,{ends}\nfog,a,False,1,1,1\nfog,b,False,2.345,2,3\nfire,a,True,.5,.4,.6\nfire,b,False,1,1,1\n")
         (self.root / benchmarks.DATA / "comparison.csv").write_text("scene,setting\n")
         self.assertEqual(benchmarks.record(self.root, path), "comparison")
-        page = benchmarks.page(self.root, COMPARING, "<!-- table comparison -->\n<!-- end -->\n")
+        page = benchmarks.page(self.root, CONVERGENCE, "<!-- table comparison -->\n<!-- end -->\n")
         self.assertIn("| setting | fog | fire |\n", page)
         self.assertIn("| `a` | **1** | biased |\n| `b` | 2.35 (2.00 – 3.00) | **1** |\n", page)
 

@@ -91,7 +91,8 @@ TrialJournal::TrialJournal(const std::string& file, const std::string& identity)
       }
       std::string message = file + ": --resume: belongs to other measurements\n  there: ";
       message += line.substr(kMagic.size());
-      throw std::runtime_error(message + "\n  here:  " + identity);
+      message += "\n  here:  ";
+      throw std::runtime_error(message + identity);
     }
     const auto numbers = numbersOf(line);
     Words words{};
