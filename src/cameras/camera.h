@@ -37,7 +37,7 @@ struct WiSample {
 ///
 /// Importance integrates to 1 over the full film, as all rays have the weight 1; what is beyond the film and
 /// within the reach of its filter is not seen by it. PBRT-v3 knows the importance of perspective cameras
-/// only.
+/// only. Cameras that weigh their rays have none (`hasImportance`).
 class Camera {
  public:
   virtual ~Camera() = default;
@@ -47,6 +47,8 @@ class Camera {
   };
   /// `film`: raster position in pixels, y down; `lens`, `time`: in [0, 1).
   virtual WeightedRay generateRay(Point2f film, Point2f lens, float time) const = 0;
+  /// Whether `we`, `pdfWe` and `sampleWi` know anything.
+  virtual bool hasImportance() const { return true; }
   /// Of a ray with unit direction that starts on the camera, at `ray.time`. Black for cameras that do not
   /// know theirs: the scene is then found by rays from the camera alone.
   virtual Importance we(const Ray& ray) const {

@@ -6,11 +6,14 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cameras/environment.h"
 #include "cameras/orthographic.h"
 #include "cameras/perspective.h"
+#include "cameras/realistic.h"
 #include "cameras/screen_window.h"
+#include "construct/lens_file.h"
 #include "construct/plugins.h"
 #include "construct/tolerance.h"
 #include "scene/param_reader.h"
@@ -18,7 +21,7 @@
 namespace pbrtmedia {
 namespace {
 
-using ReadCamera = std::unique_ptr<Camera> (*)(ParamReader&, const AnimatedTransform&, Point2i);
+using ReadCamera = std::unique_ptr<Camera> (*)(ParamReader&, const AnimatedTransform&, const FilmSize&);
 
 struct Shutter {
   float open, close;
@@ -94,10 +97,11 @@ float readFov(ParamReader& in, float fallback) {
   return static_cast<float>(folded);
 }
 
-std::unique_ptr<Camera> readPerspective(ParamReader& in, const AnimatedTransform& place, Point2i resolution) {
+std::unique_ptr<Camera> readPerspective(ParamReader& in, const AnimatedTransform& place,
+                                        const FilmSize& film) {
   PerspectiveCamera::Params p;
-  p.fullResolution = resolution;
-  p.screenWindow = readScreenWindow(in, resolution);
+  p.fullResolution = film.fullResolution;
+  p.screenWindow = readScreenWindow(in, film.fullResolution);
   p.fov = readFov(in, p.fov);
   if (p.fov < 0) {  // the tangent of a negative angle mirrors both axes
     p.fov = -p.fov;
@@ -113,10 +117,10 @@ std::unique_ptr<Camera> readPerspective(ParamReader& in, const AnimatedTransform
 }
 
 std::unique_ptr<Camera> readOrthographic(ParamReader& in, const AnimatedTransform& place,
-                                         Point2i resolution) {
+                                         const FilmSize& film) {
   OrthographicCamera::Params p;
-  p.fullResolution = resolution;
-  p.screenWindow = readScreenWindow(in, resolution);
+  p.fullResolution = film.fullResolution;
+  p.screenWindow = readScreenWindow(in, film.fullResolution);
   const Lens lens = readLens(in, {p.lensRadius, p.focalDistance});
   p.lensRadius = lens.radius;
   p.focalDistance = lens.focalDistance;
@@ -126,11 +130,12 @@ std::unique_ptr<Camera> readOrthographic(ParamReader& in, const AnimatedTransfor
   return std::make_unique<OrthographicCamera>(place, p);
 }
 
-std::unique_ptr<Camera> readEnvironment(ParamReader& in, const AnimatedTransform& place, Point2i resolution) {
+std::unique_ptr<Camera> readEnvironment(ParamReader& in, const AnimatedTransform& place,
+                                        const FilmSize& film) {
   EnvironmentCamera::Params p;
-  p.fullResolution = resolution;
+  p.fullResolution = film.fullResolution;
   // PBRT-v3 accepts the window and lens parameters here and ignores them.
-  readScreenWindow(in, resolution);
+  readScreenWindow(in, film.fullResolution);
   in.findFloat("lensradius", 0);
   in.findFloat("focaldistance", 0);
   const Shutter shutter = readShutter(in);
@@ -139,13 +144,54 @@ std::unique_ptr<Camera> readEnvironment(ParamReader& in, const AnimatedTransform
   return std::make_unique<EnvironmentCamera>(place, p);
 }
 
-constexpr std::array<Plugin<ReadCamera>, 3> kCameras = {
-    {{"perspective", readPerspective}, {"orthographic", readOrthographic}, {"environment", readEnvironment}}};
+/// The numbers of "lensfile"; nothing, told, when there are none.
+std::optional<std::vector<LensElement>> readLenses(ParamReader& in, float apertureDiameter) {
+  const auto file = requireFile(in, "lensfile");
+  if (!file) return std::nullopt;
+  try {
+    LensFile lenses = readLensFile(*file, &in.diagnostics());
+    if (const auto widest = lenses.setAperture(apertureDiameter)) {
+      tolerate(in, ParamKind::Float, "aperturediameter",
+               "found " + shownNumber(apertureDiameter) + " mm, expected at most the " +
+                   shownNumber(*widest) + " mm of the lens; that is taken, as in PBRT-v3");
+    }
+    return std::move(lenses.elements);
+  } catch (const SceneError& e) {
+    in.error(ParamKind::String, "lensfile", problemOf(e));
+    return std::nullopt;
+  }
+}
+
+std::unique_ptr<Camera> readRealistic(ParamReader& in, const AnimatedTransform& place, const FilmSize& film) {
+  RealisticCamera::Params p;
+  p.fullResolution = film.fullResolution;
+  p.filmDiagonal = 0.001 * static_cast<double>(film.diagonal);
+  const float aperture = in.findFloat("aperturediameter", 1, Range::positive());
+  p.focusDistance = static_cast<double>(
+      in.findFloat("focusdistance", static_cast<float>(p.focusDistance), Range::positive()));
+  p.simpleWeighting = in.findBool("simpleweighting", p.simpleWeighting);
+  const Shutter shutter = readShutter(in);
+  p.shutterOpen = shutter.open;
+  p.shutterClose = shutter.close;
+  if (!p.simpleWeighting && p.shutterOpen == p.shutterClose) {
+    in.diagnostics().warning(in.entity().location,
+                             in.context() +
+                                 ": the image is black: without \"simpleweighting\" it is in proportion to "
+                                 "\"shutterclose\" minus \"shutteropen\", which is 0");
+  }
+  const auto lenses = readLenses(in, aperture);
+  if (!lenses) return nullptr;
+  return std::make_unique<RealisticCamera>(place, LensSystem(*lenses), p);
+}
+
+constexpr std::array<Plugin<ReadCamera>, 4> kCameras = {{{"perspective", readPerspective},
+                                                         {"orthographic", readOrthographic},
+                                                         {"environment", readEnvironment},
+                                                         {"realistic", readRealistic}}};
 
 }  // namespace
 
-std::unique_ptr<Camera> readCamera(SceneDescription& scene, Point2i fullResolution,
-                                   Diagnostics& diagnostics) {
+std::unique_ptr<Camera> readCamera(SceneDescription& scene, const FilmSize& film, Diagnostics& diagnostics) {
   CameraDescription& entity = scene.camera;
   const AnimatedTransform place(entity.worldFromCamera->start, scene.transformStartTime,
                                 entity.worldFromCamera->end, scene.transformEndTime);
@@ -165,7 +211,7 @@ std::unique_ptr<Camera> readCamera(SceneDescription& scene, Point2i fullResoluti
   const std::size_t before = diagnostics.errorCount();
   std::unique_ptr<Camera> camera;
   try {
-    camera = builtAt(entity.location, in.context(), [&] { return plugin->read(in, place, fullResolution); });
+    camera = builtAt(entity.location, in.context(), [&] { return plugin->read(in, place, film); });
   } catch (const SceneError& e) {
     if (diagnostics.errorCount() == before) diagnostics.add(e);
   }

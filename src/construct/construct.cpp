@@ -132,7 +132,7 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
   FilmPlan film = readFilm(scene, options, diagnostics);
   Construction made;
   made.outfile = film.outfile;
-  made.camera = readCamera(scene, film.settings.resolution, diagnostics);
+  made.camera = readCamera(scene, {film.settings.resolution, film.diagonal}, diagnostics);
   made.sampler = readSampler(scene, options, diagnostics);
   const std::optional<IntegratorPlan> integrator = readIntegrator(scene, options, diagnostics);
   readAccelerator(scene.accelerator, diagnostics);

@@ -132,9 +132,7 @@ FilmPlan readFilm(SceneDescription& scene, const ConstructOptions& options, Diag
           "found " + shownNumber(*most) + ", expected > 0; no sample is limited; PBRT-v3's image is black");
     }
   }
-  // Only the realistic camera of PBRT-v3 uses it, which this renderer does not have: read, so that scenes
-  // that give it load.
-  in.findFloat("diagonal", 35);
+  plan.diagonal = in.findFloat("diagonal", plan.diagonal);
   if (options.cropWindow) setCropWindow(s, *options.cropWindow);
   if (in.has(ParamKind::Float, "cropwindow")) {
     const std::span<const float> crop = in.floats("cropwindow");

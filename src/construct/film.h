@@ -13,6 +13,7 @@ namespace pbrtmedia {
 /// Film and filter as asked for.
 struct FilmPlan {
   Film::Settings settings;
+  float diagonal = 35;            ///< millimetres; for cameras that know the size of their film
   std::filesystem::path outfile;  ///< relative to the working directory, as in PBRT-v3
   std::unique_ptr<Filter> filter;
 };

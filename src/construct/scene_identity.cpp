@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -45,6 +47,7 @@ class Collector {
     const InputFolders& folders = entity.folders ? *entity.folders : kWorkingFolder;
     for (const std::string& name : std::get<std::vector<std::string>>(param.values)) {
       if (name.empty() || name.find('\0') != std::string::npos) continue;
+      if (!asked_.emplace(&folders, name).second) continue;
       const auto found = folders.locate(name);
       std::error_code ignored;
       if (found && fs::is_regular_file(found->path, ignored)) files_.emplace(name, found->path);
@@ -70,6 +73,7 @@ class Collector {
   }
 
   std::uint64_t spectra_ = 0;
+  std::set<std::pair<const InputFolders*, std::string>> asked_;  ///< the disk is asked once
   std::map<std::string, fs::path> files_;
 };
 

@@ -2,6 +2,7 @@
 #include "construct/cameras.h"
 
 #include "construct/probe.h"
+#include "support/temporary_folder.h"
 
 namespace pbrtmedia::test {
 namespace {
@@ -44,7 +45,6 @@ TEST(ConstructCamera, SaysWhatIsWrongAndWhere) {
   expectMistakes(
       {{"Camera \"perspectiv\"",
         "Camera: unknown type \"perspectiv\"; did you mean \"perspective\"? known: ", "t.pbrt:1:8"},
-       {"Camera \"realistic\"", "unknown type \"realistic\"", "t.pbrt:1:8"},
        {"Camera \"perspective\" \"float fov\" 180", "\"fov\": found 180, expected in (0, 180)",
         "t.pbrt:1:34"},
        {"Camera \"perspective\" \"float halffov\" 90", "expected above 0 and below 90", ""},
@@ -66,6 +66,60 @@ TEST(ConstructCamera, SaysWhatIsWrongAndWhere) {
        {"Camera \"perspective\" \"float fov\" [ 40 50 ]", "\"fov\": found 2 values, expected 1", "",
         kTolerated}},
       with);
+}
+
+const std::string kLenses = "# a lens and its stop\n50 20 1.6 30\n-80 4 1 30\n0 50 0 6";
+
+TEST(ConstructCamera, ReadsLensFiles) {
+  const TemporaryFolder folder;
+  folder.write("a.dat", kLenses);
+  folder.write("other.dat", "60 20 1.6 30 -80 4 1 30 0 50 0 6");
+  folder.write("odd.dat", "50 20 1.6\n");
+  folder.write("text.dat", "fifty 20 1.6 30\n");
+  folder.write("flat.dat", "0 20 1 30\n");
+  folder.write("glass.dat", "50 20 -1.6 30\n");
+  const auto inFolder = [&](const std::string& camera, const std::string& film = "") {
+    return attempt(camera + "\n" + kSmall + film + " WorldBegin " + kLight + "WorldEnd",
+                   {.folder = folder.path()});
+  };
+  const auto alone = [&](const std::string& camera) { return inFolder(camera); };
+  const std::string realistic = "Camera \"realistic\" ", a = realistic + "\"string lensfile\" \"a.dat\" ";
+  const std::string open = a + "\"float aperturediameter\" 5 ";
+  expectEffects({{a, realistic + "\"string lensfile\" \"other.dat\""},
+                 {a, open},
+                 {a, a + "\"float focusdistance\" 0.5"},
+                 {a, a + "\"float shutteropen\" 0.5"},
+                 {a, a + "\"float shutterclose\" 2"},
+                 {a, a + "\"bool simpleweighting\" \"false\""},
+                 {a, "Translate 0 0 1 " + a}},
+                alone, cameraRays);
+  expectSame(
+      {{a, a + "\"float aperturediameter\" 1 \"float focusdistance\" 10 \"bool simpleweighting\" \"true\""}},
+      alone, cameraRays);
+  const Attempt wide = inFolder(a,
+                                "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 "
+                                "\"string filename\" \"unused.exr\" \"float diagonal\" 20");
+  ASSERT_TRUE(wide.made) << wide.messages();
+  EXPECT_NE(cameraRays(wide), cameraRays(alone(a)));
+
+  expectMistakes({{realistic, "parameter \"string lensfile\" is missing", "t.pbrt:1:1"},
+                  {realistic + "\"string lensfile\" \"nil.dat\"", "there is no file", ""},
+                  {realistic + "\"string lensfile\" \"odd.dat\"", "needs rows of 4 numbers", ""},
+                  {realistic + "\"string lensfile\" \"text.dat\"", "found 3 numbers", ""},
+                  {realistic + "\"string lensfile\" \"flat.dat\"", "cannot be focused", ""},
+                  {realistic + "\"string lensfile\" \"glass.dat\"",
+                   "lens 1: index of refraction: expected a finite number > 0", ""},
+                  {a + "\"float focusdistance\" 0.05", "focusdistance: the lens, of focal length ", ""},
+                  {a + "\"float aperturediameter\" 0", "expected > 0", ""},
+                  {a + "\"float aperturediameter\" 7",
+                   "found 7 mm, expected at most the 6 mm of the lens; that is taken", "", kTolerated},
+                  {a + "\"float fov\" 30", "unknown parameter \"fov\"", "", kTolerated}},
+                 alone);
+  EXPECT_TRUE(
+      alone(a + "\"bool simpleweighting\" \"false\" \"float shutterclose\" 0").warns("the image is black"));
+  EXPECT_TRUE(
+      inFolder(a, "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"float diagonal\" 0")
+          .failsWith("\"diagonal\" must be > 0"));
 }
 
 TEST(ConstructCamera, WarnsOfScaleAndExchangedShutterTimes) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "construct/media.h"
 
+#include <set>
+#include <string_view>
+
 #include "construct/probe.h"
 #include "media/medium.h"
 #include "media/phase/henyey_greenstein.h"
@@ -91,7 +94,65 @@ TEST(ConstructMedium, EveryLobeHasItsOwnAsymmetry) {
   }
 }
 
-TEST(ConstructMedium, KnowsEveryPreset) {
+TEST(ConstructMedium, KnowsEveryPresetOfPbrt) {
+  constexpr std::string_view kNames[] = {"Apple",
+                                         "Chicken1",
+                                         "Chicken2",
+                                         "Cream",
+                                         "Ketchup",
+                                         "Marble",
+                                         "Potato",
+                                         "Skimmilk",
+                                         "Skin1",
+                                         "Skin2",
+                                         "Spectralon",
+                                         "Wholemilk",
+                                         "Lowfat Milk",
+                                         "Reduced Milk",
+                                         "Regular Milk",
+                                         "Espresso",
+                                         "Mint Mocha Coffee",
+                                         "Lowfat Soy Milk",
+                                         "Regular Soy Milk",
+                                         "Lowfat Chocolate Milk",
+                                         "Regular Chocolate Milk",
+                                         "Coke",
+                                         "Pepsi",
+                                         "Sprite",
+                                         "Gatorade",
+                                         "Chardonnay",
+                                         "White Zinfandel",
+                                         "Merlot",
+                                         "Budweiser Beer",
+                                         "Coors Light Beer",
+                                         "Clorox",
+                                         "Apple Juice",
+                                         "Cranberry Juice",
+                                         "Grape Juice",
+                                         "Ruby Grapefruit Juice",
+                                         "White Grapefruit Juice",
+                                         "Shampoo",
+                                         "Strawberry Shampoo",
+                                         "Head & Shoulders Shampoo",
+                                         "Lemon Tea Powder",
+                                         "Orange Powder",
+                                         "Pink Lemonade Powder",
+                                         "Cappuccino Powder",
+                                         "Salt Powder",
+                                         "Sugar Powder",
+                                         "Suisse Mocha Powder",
+                                         "Pacific Ocean Surface Water"};
+  std::set<Numbers> different;
+  for (const std::string_view name : kNames) {
+    const Attempt a = with(kHomogeneous + "\"string preset\" \"" + std::string(name) + '"');
+    ASSERT_TRUE(a.isSilent()) << name << a.messages();
+    different.insert(media(a));
+  }
+  EXPECT_EQ(different.size(), std::size(kNames)) << "each has its own numbers";
+  EXPECT_EQ(std::size(kNames), mediumPresets().size());
+}
+
+TEST(ConstructMedium, KnowsEveryPresetOfItsList) {
   for (const MediumPreset& preset : mediumPresets()) {
     const Attempt a = with(kHomogeneous + "\"string preset\" \"" + std::string(preset.name) + '"');
     EXPECT_TRUE(a.isSilent()) << preset.name << a.messages();
