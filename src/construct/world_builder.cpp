@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/interruption.h"
+#include "base/memory.h"
 #include "construct/light_messages.h"
 #include "construct/plugins.h"
 
@@ -14,6 +15,9 @@ namespace {
 /// allowed, and so many for each ObjectInstance of the scene: memory follows what is written in the file.
 constexpr std::uint64_t kFreePlacements = std::uint64_t{1} << 20, kPlacementsPerInstance = 64;
 constexpr std::uint64_t kCountless = std::uint64_t{1} << 60;  ///< counts saturate here
+
+/// Descriptions of so many strands or more take memory that is worth giving back, over a kilobyte each.
+constexpr std::size_t kManyStrands = 100000;
 
 constexpr std::uint32_t kMaxDepth = 1000;  // objects within objects
 
@@ -67,6 +71,7 @@ void WorldBuilder::readShapes() {
     shapes_.push_back(readShape(shape, messages));
     handOver(messages, false, "object");
   }
+  if (joinedStrands_ >= kManyStrands) returnFreedMemory();
 }
 
 void WorldBuilder::joinStrands(std::size_t index) {
@@ -82,6 +87,7 @@ void WorldBuilder::joinStrands(std::size_t index) {
   shapes_[first->second].plan->strands->append(strands);
   read.plan.reset();
   shape.params = {};
+  ++joinedStrands_;
 }
 
 WorldBuilder::ShapeRead WorldBuilder::readShape(ShapeDescription& shape, Diagnostics& diagnostics) {

@@ -91,6 +91,7 @@ class WorldBuilder {
   using StrandKey = std::tuple<const TransformPair*, const MediumPair*, std::int32_t, bool, std::int32_t,
                                bool, CurveType, int>;
   std::map<StrandKey, std::size_t> firstStrands_;
+  std::size_t joinedStrands_ = 0;
   std::vector<std::optional<LightPlan>> lights_;
   std::vector<std::optional<DiffuseAreaLight::Params>> areaLights_;
   std::vector<std::optional<MediumPlan>> mediumPlans_;

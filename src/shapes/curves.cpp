@@ -119,7 +119,13 @@ Curves::Curves(Params params, const ShapePlacement& placement)
   if (segments_.size() > kMostPieces) rejectParameter("P", "fewer segments", segments_.size());
   while (splitDepth_ > 0 && segments_.size() << splitDepth_ > kMostSplitPieces) --splitDepth_;
   segments_.shrink_to_fit();
-  for (std::uint32_t i = 0; i < primitiveCount(); ++i) bounds_.expand(primitiveBounds(i));
+  const Matrix4& m = worldFromObject_.matrix();
+  for (std::size_t i = 0; i < 3; ++i) {
+    worldReach_[i] = std::abs(m.m[i][0]) + std::abs(m.m[i][1]) + std::abs(m.m[i][2]);
+  }
+  for (const Segment& s : segments_) {
+    bounds_.expand(boundsOf(cubicOf(s), std::max(double{s.width0}, double{s.width1})));
+  }
 }
 
 std::uint32_t Curves::primitiveCount() const {
@@ -136,23 +142,26 @@ Curves::Piece Curves::piece(std::uint32_t primitive) const {
   return {whole.part(u0, u1), u0, u1};
 }
 
+Bounds3f Curves::boundsOf(const CubicBezier& curve, double width) const {
+  Bounds3d hull;
+  for (const Vec3d& p : curve.p) hull.expand(worldFromObject_.point(p));
+  const Vec3d grow = width / 2 * worldReach_;
+  Bounds3f r;
+  r.expand(Point3f(hull.min - grow));
+  r.expand(Point3f(hull.max + grow));
+  for (std::size_t i = 0; i < 3; ++i) {
+    r.min[i] = std::nextafter(r.min[i], -kInfinity);
+    r.max[i] = std::nextafter(r.max[i], kInfinity);
+  }
+  return r;
+}
+
 Bounds3f Curves::primitiveBounds(std::uint32_t primitive) const {
   const Piece part = piece(primitive);
   const Segment& s = segmentOf(primitive);
   const double w0 = lerp(part.u0, double{s.width0}, double{s.width1});
-  const double w1 = lerp(part.u1, double{s.width0}, double{s.width1}), grow = std::max(w0, w1) / 2;
-  Bounds3d box;
-  for (const Vec3d& p : part.curve.p) {
-    box.expand(p - Vec3d(grow, grow, grow));
-    box.expand(p + Vec3d(grow, grow, grow));
-  }
-  Bounds3f world;
-  for (int i = 0; i < 8; ++i) world.expand(Point3f(worldFromObject_.point(box.corner(i))));
-  for (std::size_t i = 0; i < 3; ++i) {
-    world.min[i] = std::nextafter(world.min[i], -kInfinity);
-    world.max[i] = std::nextafter(world.max[i], kInfinity);
-  }
-  return world;
+  const double w1 = lerp(part.u1, double{s.width0}, double{s.width1});
+  return boundsOf(part.curve, std::max(w0, w1));
 }
 
 Vec3d Curves::ribbonNormal(std::uint32_t primitive, double u) const {

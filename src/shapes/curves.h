@@ -85,6 +85,8 @@ class Curves final : public Shape, public UserGeometry {
   };
   const Segment& segmentOf(std::uint32_t primitive) const { return segments_[primitive >> splitDepth_]; }
   Piece piece(std::uint32_t primitive) const;
+  /// World, around curves of that object-space width.
+  Bounds3f boundsOf(const CubicBezier& curve, double width) const;
   /// Interpolated, unit at the ends.
   Vec3d ribbonNormal(std::uint32_t primitive, double u) const;
   /// Width at u for a ray with unit direction `d`.
@@ -96,6 +98,7 @@ class Curves final : public Shape, public UserGeometry {
   std::vector<std::array<Normal3f, 2>> normals_;
   Transform worldFromObject_, objectFromWorld_;
   bool flips_;
+  Vec3d worldReach_;  ///< half the size of the box around an object-space box of half the size 1
   Bounds3f bounds_;
 };
 
