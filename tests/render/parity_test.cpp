@@ -48,7 +48,9 @@ constexpr ParityScene kScenes[] = {{"smoke", 16, 16},
                                    {"own-curve-flat", 16, 64},
                                    {"own-curve-ribbon", 16, 64},
                                    {"own-curve-cylinder", 16, 64},
-                                   {"own-realistic", 16, 64}};
+                                   {"own-realistic", 16, 256},
+                                   {"own-path-room", 16, 64},
+                                   {"own-volpath-grid", 16, 64}};
 
 std::ostream& operator<<(std::ostream& os, const ParityScene& scene) { return os << scene.name; }
 
