@@ -157,6 +157,8 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
     mediaEmit = made.scene->hasEmissiveMedia() || cameraMedium.state().isEmissive();
     made.integrator = integrator->make(*made.scene, std::move(cameraMedium));
     made.pixelBounds = integrator->pixelBounds;
+    const LayerSet layers = chooseLayers(film.layers, *made.integrator, diagnostics);
+    builtAt(film.layers.at, film.layers.context, [&] { made.film->setLayers(layers); });
     const std::vector<Medium*>& media = made.scene->media();
     if (integrator->rendersMedia &&
         std::any_of(media.begin(), media.end(), [](const Medium* m) { return m->mayBeNegative(); })) {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "scene/param_list.h"
 
@@ -17,6 +19,7 @@ struct ConstructOptions {
   bool quick = false;                             ///< resolution / 4, one sample per pixel (random: as asked)
   std::optional<std::int64_t> samplesPerPixel{};  ///< overrides the sampler's
   std::uint64_t seed = 0;
+  std::optional<std::vector<std::string>> layers{};  ///< overrides Film "layers"
   /// Replace those of every medium with a density field, or are added to them.
   ParamList mediumParams{};
 };

@@ -117,6 +117,8 @@ FilmPlan readFilm(SceneDescription& scene, const ConstructOptions& options, Diag
     return plan;
   }
   ParamReader in(entity, diagnostics, "Film \"image\"");
+  in.setPbrtNames(
+      {"xresolution", "yresolution", "scale", "maxsampleluminance", "diagonal", "cropwindow", "filename"});
   Film::Settings& s = plan.settings;
   const Range resolution = Range::closed(1, kMaxResolution);
   s.resolution = {in.findInt("xresolution", s.resolution.x, resolution),
@@ -153,6 +155,7 @@ FilmPlan readFilm(SceneDescription& scene, const ConstructOptions& options, Diag
   checkOutfile(plan.outfile,
                !options.outfile && named ? in.locationOf(ParamKind::String, "filename") : SourceLocation{},
                diagnostics);
+  plan.layers = readLayers(in, options, plan.outfile, diagnostics);
   in.reportUnused();
   return plan;
 }

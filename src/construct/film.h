@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "construct/construct_options.h"
+#include "construct/layers.h"
 #include "film/film.h"
 #include "scene/description.h"
 
@@ -16,6 +17,7 @@ struct FilmPlan {
   float diagonal = 35;            ///< millimetres; for cameras that know the size of their film
   std::filesystem::path outfile;  ///< relative to the working directory, as in PBRT-v3
   std::unique_ptr<Filter> filter;
+  LayerRequest layers;  ///< for chooseLayers
 };
 
 /// Reads Film and PixelFilter. Problems go to `diagnostics`; the plan is then incomplete (filter may be

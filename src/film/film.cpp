@@ -13,6 +13,7 @@
 #include "base/diagnostics.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "film/layer_sums.h"
 
 namespace pbrtmedia {
 namespace {
@@ -67,12 +68,13 @@ Bounds2i grownBounds(const Bounds2i& pixels, Vector2f radius) {
 }
 
 /// Before memory is taken: with more than the machine has, the system would end the program without a word.
-void checkMemory(const Bounds2i& pixels, Vector2f radius, std::size_t layerChannels) {
+void checkMemory(const Bounds2i& pixels, Vector2f radius, const LayerSet& layers) {
   const double width = pixels.width(), height = pixels.height();
   const double sampleArea = (width + 2.0 * radius.x + 2) * (height + 2.0 * radius.y + 2);
-  const double bytes =
-      width * height * (sizeof(Film::Sums) + 2 * sizeof(Rgb)) + sampleArea * sizeof(SamplePass::Sample) +
-      static_cast<double>(layerChannels) * (width * height * sizeof(double) + sampleArea * sizeof(float));
+  const double bytes = width * height * (sizeof(Film::Sums) + 2 * sizeof(Rgb)) +
+                       sampleArea * sizeof(SamplePass::Sample) +
+                       width * height * static_cast<double>(layers.sumCount() * sizeof(double)) +
+                       sampleArea * static_cast<double>(layers.sampleSize() * sizeof(float));
   const auto most = static_cast<double>(machineMemoryBytes());
   if (bytes <= most) return;
   std::ostringstream text;
@@ -103,11 +105,17 @@ void visitNeighbours(const SamplePass& pass, const FilterTable& filter, int inde
 
 Film::Film(const Settings& settings, const Filter& filter)
     : settings_(checked(settings)), filter_(filter), pixelBounds_(croppedPixels(settings_)) {
-  checkMemory(pixelBounds_, filter_.radius(), settings_.layers.channelCount());
+  checkMemory(pixelBounds_, filter_.radius(), settings_.layers);
   sampleBounds_ = grownBounds(pixelBounds_, filter_.radius());
   const auto pixels = static_cast<std::size_t>(pixelBounds_.area());
   state_.sums.resize(pixels);
-  state_.layers.resize(pixels * settings_.layers.channelCount());
+  state_.layers.resize(pixels * settings_.layers.sumCount());
+}
+
+void Film::setLayers(const LayerSet& layers) {
+  checkMemory(pixelBounds_, filter_.radius(), layers);
+  settings_.layers = layers;
+  state_.layers.assign(state_.sums.size() * layers.sumCount(), 0);
 }
 
 bool Film::admit(Rgb& radiance, RenderCounters& counters) const {
@@ -155,22 +163,25 @@ void Film::accumulateRow(const SamplePass& pass, int y, int firstSlot, int step,
 }
 
 void Film::accumulateLayersOfRow(const SamplePass& pass, int y) {
-  const std::size_t channels = settings_.layers.channelCount();
+  const LayerSet& layers = settings_.layers;
+  const std::size_t count = layers.sumCount();
   double* sums = state_.layers.data() + static_cast<std::size_t>(y - pixelBounds_.min.y) *
-                                            static_cast<std::size_t>(pixelBounds_.width()) * channels;
-  for (int x = pixelBounds_.min.x; x < pixelBounds_.max.x; ++x, sums += channels) {
+                                            static_cast<std::size_t>(pixelBounds_.width()) * count;
+  for (int x = pixelBounds_.min.x; x < pixelBounds_.max.x; ++x, sums += count) {
     for (int s = 0; s < pass.samplesPerPixel(); ++s) {
-      visitNeighbours(pass, filter_, s, {x, y}, [&](const SamplePass::Sample&, double weight, Point2i from) {
-        const float* const values = pass.layerValues(from, s);
-        for (std::size_t c = 0; c < channels; ++c) sums[c] += weight * values[c];
-      });
+      visitNeighbours(pass, filter_, s, {x, y},
+                      [&](const SamplePass::Sample& sample, double weight, Point2i from) {
+                        addFiltered(layers, pass.layerValues(from, s), sample.radiance, weight, sums);
+                      });
+      if (pass.at({x, y}, s).valid) addOwn(layers, pass.layerValues({x, y}, s), sums);
     }
   }
 }
 
 Image Film::develop() const {
+  const LayerSet& layers = settings_.layers;
   std::vector<std::string> names = {"R", "G", "B"};
-  names.insert(names.end(), settings_.layers.channelNames().begin(), settings_.layers.channelNames().end());
+  names.insert(names.end(), layers.channelNames().begin(), layers.channelNames().end());
   Image image(pixelBounds_.width(), pixelBounds_.height(), names);
   image.dataWindow = pixelBounds_;
   image.displayWindow = {{0, 0}, settings_.resolution};
@@ -187,8 +198,9 @@ Image Film::develop() const {
                    {development.value(mean(s.r) + splats.r * perSplat),
                     development.value(mean(s.g) + splats.g * perSplat),
                     development.value(mean(s.b) + splats.b * perSplat)});
-      for (std::size_t c = 3; c < image.channelCount(); ++c)
-        image.at(x, y, c) = static_cast<float>(mean(state_.layers[i * (image.channelCount() - 3) + c - 3]));
+      if (layers.isEmpty()) continue;
+      developLayers(layers, std::span(state_.layers).subspan(i * layers.sumCount(), layers.sumCount()), s,
+                    development, &image.at(x, y, 3));
     }
   }
   return image;

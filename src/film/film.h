@@ -43,7 +43,7 @@ class Film {
   struct State {
     std::vector<Sums> sums;
     std::vector<Sums> odd;         ///< of samples of odd index alone; empty unless halves are kept
-    std::vector<double> layers;    ///< weighted sums, a value for each channel; empty without layers
+    std::vector<double> layers;    ///< LayerSet::sumCount of them a pixel; empty without layers
     std::vector<SplatSum> splats;  ///< empty before the first one
     std::uint64_t splatPaths = 0;  ///< a whole number, as sums of it depend on no grouping
     double splatArea = 0;          ///< pixels over which the paths spread
@@ -62,6 +62,8 @@ class Film {
     return static_cast<double>(settings_.resolution.x) * static_cast<double>(settings_.resolution.y);
   }
   const LayerSet& layers() const { return settings_.layers; }
+  /// Instead of those of the settings: to be called before the first sample. Throws as the constructor does.
+  void setLayers(const LayerSet& layers);
   /// Whether a sample may reach the film; counts its cause in `counters` and returns false otherwise. A
   /// dropped sample is black but still weighs, as in PBRT-v3. Luminance above maxSampleLuminance is scaled
   /// down in place, and so is that below minus it.
@@ -85,7 +87,7 @@ class Film {
   /// Parallel over rows.
   void addSplats(std::span<const SplatBuffer> units, std::uint64_t paths, double area);
   /// Current image: normalised, negative values at 0 unless they are kept, scaled. Data and display windows
-  /// are set. Layers follow the colour, each a mean of samples as that is.
+  /// are set. Layers follow the colour (film/layer_sums.h).
   Image develop() const;
 
   /// The image less an estimate of its error from its halves, without clamping: with A and B the means of the

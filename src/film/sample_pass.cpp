@@ -12,7 +12,7 @@ SamplePass::SamplePass(Bounds2i sampleBounds, int samplesPerPixel, const LayerSe
     : bounds_(sampleBounds), samples_(samplesPerPixel), firstIndex_(firstIndex), layers_(layers) {
   CHECK_GT(samplesPerPixel, 0);
   data_.resize(static_cast<std::size_t>(bounds_.area()) * static_cast<std::size_t>(samples_));
-  layerData_.resize(data_.size() * layers_.channelCount());
+  layerData_.resize(data_.size() * layers_.sampleSize());
 }
 
 void SamplePass::clear() {

@@ -32,11 +32,11 @@ class SamplePass {
   LayerSample layersAt(Point2i pixel, int sample) {
     return layers_.isEmpty()
                ? LayerSample()
-               : LayerSample(layers_, &layerData_[index(pixel, sample) * layers_.channelCount()]);
+               : LayerSample(layers_, layerData_.data() + index(pixel, sample) * layers_.sampleSize());
   }
-  /// Its values, one for each channel; null where there are none.
+  /// Its numbers (LayerSet::sampleSize); null where there are none.
   const float* layerValues(Point2i pixel, int sample) const {
-    return layers_.isEmpty() ? nullptr : &layerData_[index(pixel, sample) * layers_.channelCount()];
+    return layers_.isEmpty() ? nullptr : layerData_.data() + index(pixel, sample) * layers_.sampleSize();
   }
   void clear();
 

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "base/interruption.h"
+#include "image/channels.h"
 #include "image/codecs.h"
 #include "image/decode_error.h"
 #include "image/exr_header_check.h"
@@ -133,6 +134,10 @@ Imf::Compression toImf(ExrCompression c) {
   throw std::logic_error("unknown compression");
 }
 
+Imf::PixelType storedType(const std::string& channel, const WriteOptions& options) {
+  return options.pixelType == PixelType::Half && isColour(channel) ? Imf::HALF : Imf::FLOAT;
+}
+
 Imf::Header makeHeader(const Image& image, const WriteOptions& options) {
   Imf::Header header(toBox(image.displayWindow), toBox(image.dataWindow), 1, Imath::V2f(0, 0), 1,
                      Imf::INCREASING_Y, toImf(options.compression));
@@ -142,8 +147,8 @@ Imf::Header makeHeader(const Image& image, const WriteOptions& options) {
     }
     header.insert(key, Imf::StringAttribute(value));
   }
-  const Imf::PixelType type = options.pixelType == PixelType::Half ? Imf::HALF : Imf::FLOAT;
-  for (const std::string& name : image.channels()) header.channels().insert(name, Imf::Channel(type));
+  for (const std::string& name : image.channels())
+    header.channels().insert(name, Imf::Channel(storedType(name, options)));
   return header;
 }
 
@@ -152,21 +157,23 @@ std::string encodeChecked(const Image& image, const WriteOptions& options) {
   if (image.dataWindow.width() != image.width() || image.dataWindow.height() != image.height()) {
     throw std::runtime_error("the data window does not have the size of the image");
   }
-  const bool asHalf = options.pixelType == PixelType::Half;
+  const bool anyHalf = options.pixelType == PixelType::Half;
   std::vector<half> halves;
-  if (asHalf) halves.assign(image.data().begin(), image.data().end());
-  const void* pixels = asHalf ? static_cast<const void*>(halves.data()) : image.data().data();
-  const std::size_t valueBytes = asHalf ? sizeof(half) : sizeof(float);
-  const std::size_t pixelBytes = image.channelCount() * valueBytes;
+  if (anyHalf) halves.assign(image.data().begin(), image.data().end());
+  const auto sliceOf = [&](std::size_t c, Imf::PixelType type) {
+    const bool isHalf = type == Imf::HALF;
+    const void* pixels = isHalf ? static_cast<const void*>(halves.data()) : image.data().data();
+    const std::size_t valueBytes = isHalf ? sizeof(half) : sizeof(float);
+    const std::size_t pixelBytes = image.channelCount() * valueBytes;
+    return Imf::Slice(type, originOf(pixels, image.dataWindow, pixelBytes) + c * valueBytes, pixelBytes,
+                      pixelBytes * static_cast<std::size_t>(image.width()));
+  };
 
   ExrMemoryOutput stream;
   {
     Imf::FrameBuffer frame;
-    for (std::size_t c = 0; c < image.channelCount(); ++c) {
-      char* base = originOf(pixels, image.dataWindow, pixelBytes) + c * valueBytes;
-      frame.insert(image.channels()[c], Imf::Slice(asHalf ? Imf::HALF : Imf::FLOAT, base, pixelBytes,
-                                                   pixelBytes * static_cast<std::size_t>(image.width())));
-    }
+    for (std::size_t c = 0; c < image.channelCount(); ++c)
+      frame.insert(image.channels()[c], sliceOf(c, storedType(image.channels()[c], options)));
     Imf::OutputFile file(stream, makeHeader(image, options));
     file.setFrameBuffer(frame);
     file.writePixels(image.height());

@@ -61,7 +61,7 @@ enum class PixelType { Half, Float };
 enum class ExrCompression { None, Zip, Piz };
 
 struct WriteOptions {
-  PixelType pixelType = PixelType::Half;  ///< EXR only
+  PixelType pixelType = PixelType::Half;  ///< EXR only; of colours: data stay float (isColour)
   ExrCompression compression = ExrCompression::Zip;
 };
 

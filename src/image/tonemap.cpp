@@ -73,6 +73,10 @@ void scaleColors(Image& image, float factor) {
   mapColors(image, [&](Rgb c) { return factor * c; });
 }
 
+void offsetColors(Image& image, float offset) {
+  mapColors(image, [&](Rgb c) { return c + Rgb(offset); });
+}
+
 void toneMap(Image& image, float maxLuminance) {
   if (!(maxLuminance > 0)) throw std::invalid_argument("the luminance that becomes 1 must be above 0");
   const float inverseSquare = 1 / (maxLuminance * maxLuminance);

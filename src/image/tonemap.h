@@ -11,6 +11,9 @@ namespace pbrtmedia {
 /// Multiplies colours by `factor`.
 void scaleColors(Image& image, float factor);
 
+/// Adds `offset` to each channel of them.
+void offsetColors(Image& image, float offset);
+
 /// Reinhard's global operator: colours times (1 + Y/Ymax^2) / (1 + Y), Y the luminance. `maxLuminance` > 0 is
 /// the luminance that becomes 1.
 void toneMap(Image& image, float maxLuminance);

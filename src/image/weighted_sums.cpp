@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/hash.h"
+#include "image/channels.h"
 
 namespace pbrtmedia {
 namespace {
@@ -20,8 +21,10 @@ constexpr std::array<double WeightedSums::*, 4> kMembers = {&WeightedSums::r, &W
                                                             &WeightedSums::b, &WeightedSums::weight};
 constexpr std::array<const char*, kMembers.size()> kNames = {"sums.r.", "sums.g.", "sums.b.", "sums.weight."};
 
-std::string channelName(std::size_t member, std::size_t part) {
-  return std::string(kNames[member]) += static_cast<char>('0' + part);
+std::string channelName(std::size_t number, std::size_t part) {
+  std::string name =
+      number < kMembers.size() ? kNames[number] : "sums." + std::to_string(number - kMembers.size()) + '.';
+  return name += static_cast<char>('0' + part);
 }
 
 bool isSums(const std::string& channel) { return channel.starts_with("sums."); }
@@ -34,20 +37,21 @@ std::vector<std::string> otherChannels(const Image& image) {
   return names;
 }
 
-using Channels = std::array<std::size_t, kMembers.size() * kParts>;
-
-std::optional<Channels> channelsOf(const Image& image) {
-  Channels channels{};
-  for (std::size_t i = 0; i < channels.size(); ++i) {
-    const std::optional<std::size_t> channel = image.channelIndex(channelName(i / kParts, i % kParts));
-    if (!channel) return std::nullopt;
-    channels[i] = *channel;
+/// Of the sums of the colours, then of as many others as there are; `kParts` each. Nothing without colours.
+std::optional<std::vector<std::size_t>> channelsOf(const Image& image) {
+  std::vector<std::size_t> channels;
+  for (std::size_t number = 0;; ++number) {
+    for (std::size_t part = 0; part < kParts; ++part) {
+      const std::optional<std::size_t> channel = image.channelIndex(channelName(number, part));
+      if (!channel && number >= kMembers.size() && part == 0) return channels;
+      if (!channel) return std::nullopt;
+      channels.push_back(*channel);
+    }
   }
-  return channels;
 }
 
 /// Of the values as they are stored.
-std::string hashOf(const Image& image, const Channels& channels) {
+std::string hashOf(const Image& image, const std::vector<std::size_t>& channels) {
   std::uint64_t hash = 0;
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
@@ -58,19 +62,12 @@ std::string hashOf(const Image& image, const Channels& channels) {
   return std::to_string(hash);
 }
 
-/// The image with these channels alone, and room for others, which are 0.
-Image picked(const Image& image, const std::vector<std::string>& kept, const std::vector<std::string>& all) {
-  Image out(image.width(), image.height(), all);
-  out.dataWindow = image.dataWindow;
-  out.displayWindow = image.displayWindow;
-  out.metadata = image.metadata;
-  for (const std::string& name : kept) {
-    const std::size_t from = *image.channelIndex(name), to = *out.channelIndex(name);
-    for (int y = 0; y < out.height(); ++y) {
-      for (int x = 0; x < out.width(); ++x) out.at(x, y, to) = image.at(x, y, from);
-    }
+/// As the sum of floats, largest first.
+void put(double sum, float* parts) {
+  for (std::size_t part = 0; part < kParts; ++part) {
+    parts[part] = static_cast<float>(sum);
+    sum -= static_cast<double>(parts[part]);  // exact
   }
-  return out;
 }
 
 }  // namespace
@@ -86,25 +83,29 @@ Rgb Development::colour(const WeightedSums& s) const {
   return {value(s.r / s.weight), value(s.g / s.weight), value(s.b / s.weight)};
 }
 
-Image withSums(const Image& image, std::span<const WeightedSums> sums, const Development& development) {
-  if (sums.size() != static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()))
+Image withSums(const Image& image, std::span<const WeightedSums> sums, const Development& development,
+               std::span<const double> others) {
+  const auto pixels = static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
+  if (sums.size() != pixels || pixels == 0 || others.size() % pixels != 0)
     throw std::invalid_argument("withSums: one sum for each pixel");
-  std::vector<std::string> names = otherChannels(image);
-  const std::vector<std::string> others = names;
-  for (std::size_t m = 0; m < kMembers.size(); ++m) {
-    for (std::size_t part = 0; part < kParts; ++part) names.push_back(channelName(m, part));
+  const std::size_t more = others.size() / pixels;
+  std::vector<std::string> room;
+  for (std::size_t number = 0; number < kMembers.size() + more; ++number) {
+    for (std::size_t part = 0; part < kParts; ++part) room.push_back(channelName(number, part));
   }
-  Image out = picked(image, others, names);
+  const std::vector<std::string> kept = otherChannels(image);
+  Image out = withChannels(image, kept, room);
   std::size_t i = 0;
   for (int y = 0; y < out.height(); ++y) {
     for (int x = 0; x < out.width(); ++x, ++i) {
-      for (std::size_t m = 0; m < kMembers.size(); ++m) {
-        double rest = sums[i].*kMembers[m];
-        for (std::size_t part = 0; part < kParts; ++part) {
-          const auto next = static_cast<float>(rest);
-          out.at(x, y, others.size() + m * kParts + part) = next;
-          rest -= static_cast<double>(next);  // exact
-        }
+      float* parts = &out.at(x, y, kept.size());
+      for (const auto member : kMembers) {
+        put(sums[i].*member, parts);
+        parts += kParts;
+      }
+      for (const double sum : others.subspan(i * more, more)) {
+        put(sum, parts);
+        parts += kParts;
       }
     }
   }
@@ -116,20 +117,24 @@ Image withSums(const Image& image, std::span<const WeightedSums> sums, const Dev
   return out;
 }
 
-std::optional<std::vector<WeightedSums>> sumsOf(const Image& image) {
-  const std::optional<Channels> channels = channelsOf(image);
+std::optional<PixelSums> sumsOf(const Image& image) {
+  const std::optional<std::vector<std::size_t>> channels = channelsOf(image);
   const auto hash = image.metadata.find("sumsHash");
   if (!channels || hash == image.metadata.end() || hash->second != hashOf(image, *channels))
     return std::nullopt;
-  std::vector<WeightedSums> sums;
-  sums.reserve(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
+  const auto pixels = static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
+  const std::size_t count = channels->size() / kParts;
+  PixelSums sums;
+  sums.colours.reserve(pixels);
+  sums.others.reserve(pixels * (count - kMembers.size()));
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
-      WeightedSums& s = sums.emplace_back();
-      for (std::size_t m = 0; m < kMembers.size(); ++m) {
+      WeightedSums& colour = sums.colours.emplace_back();
+      for (std::size_t number = 0; number < count; ++number) {
+        double& sum = number < kMembers.size() ? colour.*kMembers[number] : sums.others.emplace_back(0);
         // The smallest first, so that nothing is rounded away on the way.
         for (std::size_t part = kParts; part-- > 0;)
-          s.*kMembers[m] += static_cast<double>(image.at(x, y, (*channels)[m * kParts + part]));
+          sum += static_cast<double>(image.at(x, y, (*channels)[number * kParts + part]));
       }
     }
   }
@@ -151,7 +156,7 @@ Development developmentOf(const Image& image) {
 }
 
 Image withoutSums(const Image& image) {
-  Image out = picked(image, otherChannels(image), otherChannels(image));
+  Image out = withChannels(image, otherChannels(image));
   for (const char* key : {"filmScale", "keepsNegatives", "sumsHash"}) out.metadata.erase(key);
   return out;
 }

@@ -34,9 +34,15 @@ struct Development {
 /// Adds channels "sums.r.0" ... "sums.weight.2" that hold the sums of all pixels (row by row) exactly: a
 /// double is the sum of three floats where it is below 2^127 and above 2^-90, else nearly. And the
 /// development, as metadata "filmScale" and "keepsNegatives"; "sumsHash" tells when channels were changed.
-Image withSums(const Image& image, std::span<const WeightedSums> sums, const Development& development);
+/// `others`: as many more sums for each pixel as there are, in channels "sums.0.0", ...
+Image withSums(const Image& image, std::span<const WeightedSums> sums, const Development& development,
+               std::span<const double> others = {});
+struct PixelSums {
+  std::vector<WeightedSums> colours;
+  std::vector<double> others;
+};
 /// The sums in an image; nothing when it has no such channels, or they are no longer what they were.
-std::optional<std::vector<WeightedSums>> sumsOf(const Image& image);
+std::optional<PixelSums> sumsOf(const Image& image);
 /// The development in an image with sums. Throws std::invalid_argument for metadata that is none.
 Development developmentOf(const Image& image);
 /// The image without these channels.

@@ -110,6 +110,7 @@ class OptionList {
   Options options_;
   std::vector<std::string> scenes_;
   std::vector<float> crop_;
+  std::vector<std::string> layers_;
   std::string outfile_, samples_, stats_, boundsCache_, checkpoint_, resume_, convergence_, reference_,
       displayServer_, serve_;
   std::string progress_ = "auto", logDirectory_;
@@ -123,6 +124,13 @@ void OptionList::addImage() {
       ->type_name("N")
       ->group(kRendering);
   app_.add_option("--outfile", outfile_, "image file; overrides the scene's (.exr .png .pfm .tga)")
+      ->group(kRendering);
+  app_.add_option("--layers", layers_,
+                  "what an EXR image is to hold besides colour: names with commas between them, or all; "
+                  "overrides the scene's (docs/layers.md)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("LIST")
       ->group(kRendering);
   app_.add_flag("--png", options_.png, "write the image as a PNG of the same name too")->group(kRendering);
   app_.add_option("--cropwindow", crop_, "render only this part: fractions of the image, y down")
@@ -331,6 +339,7 @@ OptionsOutcome OptionList::read(const std::vector<std::string>& words) {
   options_.isServePortFixed = serve_ != kAnywhere;
   if (!checkpoint_.empty()) options_.checkpoint = checkpoint_;
   if (!resume_.empty()) options_.resume = resume_;
+  if (!layers_.empty()) options_.layers = layers_;
   if (!crop_.empty()) {
     std::array<float, 4> window{};
     std::copy(crop_.begin(), crop_.end(), window.begin());

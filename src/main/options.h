@@ -26,6 +26,7 @@ struct Options {
   unsigned threads = 0;                       ///< 0: one per processor
   std::optional<std::filesystem::path> outfile;
   std::optional<std::array<float, 4>> cropWindow;  ///< x0 x1 y0 y1, fractions
+  std::optional<std::vector<std::string>> layers;  ///< instead of the scene's
   bool png = false;                                ///< write a PNG beside the image too
   bool quick = false;
   bool quiet = false;

@@ -8,6 +8,7 @@
 #include "construct/construct.h"
 #include "construct/scene_identity.h"
 #include "fields/learned_bounds.h"
+#include "image/channels.h"
 #include "image/weighted_sums.h"
 #include "main/image_header.h"
 #include "main/messages.h"
@@ -37,6 +38,7 @@ std::optional<BuiltWorld> build(SceneDescription& description, const Run& run) {
       .quick = options.quick,
       .samplesPerPixel = options.samplesPerPixel,
       .seed = options.seed,
+      .layers = options.layers,
       .mediumParams = parseParams(options.mediumParams, "--mediumparams", diagnostics)};
   if (diagnostics.hasErrors()) {
     show(diagnostics, options.quiet);
@@ -93,9 +95,11 @@ std::string writeRendered(const std::filesystem::path& outfile, const Image& ima
   }
   std::string written;
   WriteOptions write = options.write;
+  // Viewers would take coverage for transparency.
+  const Image colours = wanted.size() > 1 ? withChannels(image, {"R", "G", "B"}) : Image();
   if (options.samples) write.pixelType = PixelType::Float;  // sums are to stay what they are
   for (const std::filesystem::path& file : wanted) {
-    const SavedImage saved = saveImage(file, image, write);
+    const SavedImage saved = saveImage(file, &file == &wanted.front() ? image : colours, write);
     if (!saved.problem.empty()) {
       std::cerr << "pbrt: error: " << saved.problem << "; the image is in \"" << saved.file.string()
                 << "\" instead\n";
@@ -111,7 +115,7 @@ std::string writeRendered(const std::filesystem::path& outfile, const Image& ima
 Image asRange(Image image, const SampleRange& range, const Construction& scene) {
   image.metadata["sampleRange"] = std::to_string(range.first) + ':' + std::to_string(range.end);
   image.metadata["samplesPlanned"] = std::to_string(scene.sampler->samplesPerPixel());
-  return withSums(image, scene.film->state().sums, scene.film->development());
+  return withSums(image, scene.film->state().sums, scene.film->development(), scene.film->state().layers);
 }
 
 void fillIn(RenderStatistics& statistics, const RenderedImage& rendered) {
@@ -196,7 +200,9 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   run.watching.enter("writing");
   if (!run.checkpoints.finish(scene, result)) status = kExitBadInput;
   statistics.parts = run.checkpoints.parts();
-  const Image image = withHeader(scene.film->develop(), statistics, options, world->identity);
+  Image image = withHeader(scene.film->develop(), statistics, options, world->identity);
+  // Who merges images wants to know what their channels are.
+  if (!scene.film->layers().isEmpty()) image.metadata["layers"] = scene.film->layers().text();
   const std::string written =
       options.samples ? writeRendered(scene.outfile, asRange(image, *options.samples, scene), options, status)
                       : writeRendered(scene.outfile, image, options, status);

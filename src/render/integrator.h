@@ -3,6 +3,8 @@
 
 #include <string_view>
 
+#include "film/layers.h"
+
 namespace pbrtmedia {
 
 class Camera;
@@ -23,6 +25,10 @@ class Integrator {
   virtual std::string_view typeName() const = 0;
   /// What is rendered. Whoever renders finds there the media whose bounds are learned (Scene::learners).
   const Scene& scene() const { return scene_; }
+
+  /// What it can tell of the image besides colour; whoever is asked for more is to refuse. None, unless an
+  /// integrator says so.
+  virtual LayerMask layers() const { return {}; }
 
   /// Takes the samples of an image and accumulates them on the film, in passes. Every sample is a pure
   /// function of (seed, pixel, sample index), or of (seed, number of the chain), and of the passes before

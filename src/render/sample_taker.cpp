@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <utility>
 
 #include "base/hash.h"
@@ -20,6 +21,15 @@ DropCause causeOf(const RenderCounters& before, const RenderCounters& after) {
     if (after.dropped[i] != before.dropped[i]) return static_cast<DropCause>(i);
   }
   return DropCause::NotANumber;
+}
+
+/// Processor time of this thread, where somebody wants to know it: what others take from it meanwhile is none
+/// of the sample's.
+double secondsOf(const LayerSample& layers) {
+  if (!layers.wants(Layer::Seconds)) return 0;
+  timespec now{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace
@@ -42,7 +52,9 @@ Rgb renderSample(const Camera& camera, Sampler& sampler, const SamplingIntegrato
                                 static_cast<std::uint64_t>(sample),
                                 static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel, 0)), 0};
   SampleContext context{sampler, rng, counters, output.mismatches, output.splats, output.layers, pixelSample};
-  return weighted.weight * integrator.radiance(weighted.ray, context);
+  const Rgb radiance = weighted.weight * integrator.radiance(weighted.ray, context);
+  output.layers.scaleRadiance(weighted.weight);
+  return radiance;
 }
 
 SampleTaker::SampleTaker(const Camera& camera, const Sampler& sampler, const SamplingIntegrator& integrator,
@@ -62,18 +74,28 @@ void SampleTaker::take(Point2i pixel, std::int64_t index, int slot, SamplePass& 
   report.counters.violation.reset();
   const std::uint64_t lookupsBefore = report.counters.densityLookups;
   const LayerSample layers = pass.layersAt(pixel, slot);
+  const double secondsBefore = secondsOf(layers);
   const std::size_t splatsBefore = splats ? splats->size() : 0;
   Rgb radiance =
       renderSample(camera_, *sampler_, integrator_, pixel, index, samplesPerPixel_, options_.seed,
                    report.counters, {.mismatches = &log, .film = &film, .splats = splats, .layers = layers});
-  layers.set(Layer::Lookups, static_cast<float>(report.counters.densityLookups - lookupsBefore));
+  if (layers.isWanted()) {
+    layers.set(Layer::Samples, 1.0f);
+    layers.set(Layer::Seconds, static_cast<float>(secondsOf(layers) - secondsBefore));
+    layers.set(Layer::Lookups, static_cast<float>(report.counters.densityLookups - lookupsBefore));
+  }
   report.mismatches.insert(report.mismatches.end(), log.entries.begin(), log.entries.end());
   if (report.counters.violation && report.violations.size() < options_.maxRecords) {
     ViolationRecord record{pixel, index, *report.counters.violation, {}};
     record.medium = std::exchange(record.violation.medium, {});
     report.violations.push_back(std::move(record));
   }
-  admit(radiance, pixel, index, report);
+  const float luminance = radiance.luminance();
+  if (!admit(radiance, pixel, index, report)) {
+    layers.drop();
+  } else if (const float admitted = radiance.luminance(); layers.isWanted() && admitted != luminance) {
+    layers.scaleRadiance(admitted / luminance);
+  }
   if (splats) splats->removeIf(splatsBefore, [&](Rgb& value) { return !admit(value, pixel, index, report); });
   SamplePass::Sample& out = pass.at(pixel, slot);
   out.offset = {film.x - static_cast<float>(pixel.x), film.y - static_cast<float>(pixel.y)};

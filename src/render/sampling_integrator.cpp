@@ -56,7 +56,7 @@ class TileLoop {
 
  private:
   std::int64_t mostPerPass() const {
-    const std::size_t perSample = sizeof(SamplePass::Sample) + film_.layers().channelCount() * sizeof(float) +
+    const std::size_t perSample = sizeof(SamplePass::Sample) + film_.layers().sampleSize() * sizeof(float) +
                                   (integrator_.makesSplats() ? kSplatsPerSample * sizeof(Splat) : 0);
     const auto perIndex = static_cast<std::size_t>(film_.sampleBounds().area()) * perSample;
     return static_cast<std::int64_t>(std::max<std::size_t>(1, kPassBytes / perIndex));
@@ -128,6 +128,13 @@ class TileLoop {
 };
 
 }  // namespace
+
+LayerMask SamplingIntegrator::layers() const {
+  LayerMask mask = maskOf({Layer::Samples, Layer::Seconds, Layer::Lookups}) | layersOfRays();
+  // Splats come from anywhere, and nobody knows how they vary.
+  if (!makesSplats()) mask |= maskOf({Layer::Variance});
+  return mask;
+}
 
 RenderResult SamplingIntegrator::render(const Camera& camera, const Sampler& sampler, Film& film,
                                         const RenderOptions& options) const {

@@ -20,6 +20,12 @@ class SamplingIntegrator : public Integrator {
   /// mean over as many splats as there are samples to a pixel of the whole image.
   virtual bool makesSplats() const { return false; }
 
+  /// What every sample can tell, and `layersOfRays`.
+  LayerMask layers() const final;
+  /// Those that `radiance` sets in SampleContext::layers when they are wanted, without any effect on what it
+  /// answers or draws.
+  virtual LayerMask layersOfRays() const { return {}; }
+
   RenderResult render(const Camera& camera, const Sampler& sampler, Film& film,
                       const RenderOptions& options) const final;
 

@@ -95,6 +95,49 @@ TEST(ConstructFilm, SaysWhatIsWrongAndWhere) {
   EXPECT_TRUE(attempt("WorldBegin " + kLight + "WorldEnd", {.build = options}).failsWith("is a folder"));
 }
 
+TEST(ConstructFilm, KeepsTheLayersThatAreAskedFor) {
+  const std::string world = "\nWorldBegin " + kLight + "WorldEnd";
+  EXPECT_TRUE(withOptions(film("")).made->film->layers().isEmpty());
+  const std::string two = film("\"string layers\" [ \"normal\" \"alpha\" \"alpha\" ]");
+  EXPECT_EQ(withOptions(two).made->film->layers().text(), "alpha,normal");
+  ConstructOptions options;
+  options.layers = {"depth"};
+  EXPECT_EQ(attempt(two + world, {.build = options}).made->film->layers().text(), "depth");
+  // All that the integrator can tell.
+  const std::string all = film("\"string layers\" \"all\"");
+  EXPECT_EQ(withOptions("Integrator \"volpath\" " + all).made->film->layers().layers().size(), kLayerCount);
+  EXPECT_EQ(withOptions("Integrator \"whitted\" " + all).made->film->layers().layers().size(),
+            kLayerCount - 3);
+  EXPECT_EQ(withOptions("Integrator \"volpath\" \"integer maxdepth\" 0 " + all).made->film->layers().text(),
+            "variance,samples,seconds,lookups,emission,direct,indirect,surface,medium");
+}
+
+TEST(ConstructFilm, RefusesLayersThatNobodyCanTell) {
+  expectMistakes(
+      {{"Film \"image\" \"string layers\" [ \"albedo\" \"depht\" ]",
+        "Film \"image\": parameter \"layers\": unknown layer \"depht\"; did you mean \"depth\"?",
+        "t.pbrt:1:32"},
+       {"Film \"image\" \"integer layers\" 3", "found type integer, expected string", "t.pbrt:1:14"},
+       {"Film \"image\" \"string layers\" \"alpha\" \"string filename\" \"a.png\"",
+        "layers are channels of an OpenEXR file, and the image is \"a.png\"; expected a name that ends in "
+        ".exr",
+        "t.pbrt:1:30"},
+       {"Integrator \"whitted\" Film \"image\" \"string layers\" [ \"alpha\" \"medium\" \"mediumdepth\" ]",
+        "Integrator \"whitted\" cannot fill mediumdepth, medium; it fills variance, samples, seconds, "
+        "lookups, "
+        "alpha, depth, normal, albedo, position, emission, direct, indirect, surface",
+        "t.pbrt:1:53"}},
+      withOptions);
+  ConstructOptions options;
+  options.layers = {"alhpa"};
+  const std::string world = "WorldBegin " + kLight + "WorldEnd";
+  EXPECT_TRUE(attempt(world, {.build = options}).failsWith("--layers: unknown layer \"alhpa\""));
+  options.layers = {"alpha"};
+  options.outfile = "a.pfm";
+  EXPECT_TRUE(
+      attempt(world, {.build = options}).failsWith("--layers: layers are channels of an OpenEXR file"));
+}
+
 TEST(ConstructFilm, IsNeeded) {
   const std::string world = "\nWorldBegin " + kLight + "WorldEnd";
   EXPECT_TRUE(attempt("Film \"imag\"" + world).failsWith("unknown type"));

@@ -479,43 +479,6 @@ TEST(Splats, AddToTheMeanOfSamplesAndAreScaledWithThem) {
   EXPECT_EQ(other.develop().data(), film.develop().data());
 }
 
-// ---- Layers
-
-TEST(Layers, AreMeansUnderTheFilterAsColoursAre) {
-  Film::Settings s = sized(6, 5);
-  s.layers.add(Layer::Lookups);
-  Film film(s, GaussianFilter({}));
-  SamplePass pass(film.sampleBounds(), 3, film.layers());
-  Rng rng(3);
-  const Bounds2i b = film.sampleBounds();
-  for (int i = 0; i < 3; ++i) {
-    for (int y = b.min.y; y < b.max.y; ++y) {
-      for (int x = b.min.x; x < b.max.x; ++x) {
-        const float value = rng.uniform();
-        setSample(pass, {x, y}, i, {rng.uniform(), rng.uniform()}, Rgb(value));
-        pass.layersAt({x, y}, i).set(Layer::Lookups, value);
-      }
-    }
-  }
-  film.accumulate(pass);
-  const Image image = film.develop();
-  ASSERT_EQ(image.channelCount(), 4u);
-  for (int y = 0; y < 5; ++y) {
-    for (int x = 0; x < 6; ++x) EXPECT_FLOAT_EQ(image.at(x, y, 3), image.at(x, y, 0));
-  }
-}
-
-TEST(Layers, CostNothingWhereNobodyAsksForThem) {
-  Film film(sized(6, 5), *box());
-  SamplePass pass(film.sampleBounds(), 1, film.layers());
-  EXPECT_EQ(pass.layerValues({0, 0}, 0), nullptr);
-  EXPECT_FALSE(pass.layersAt({0, 0}, 0).wants(Layer::Lookups));
-  pass.layersAt({0, 0}, 0).set(Layer::Lookups, 3);
-  film.accumulate(pass);
-  EXPECT_TRUE(film.state().layers.empty());
-  EXPECT_EQ(film.develop().channelCount(), 3u);
-}
-
 TEST(SamplePass, KeepsEachSampleApartAndClears) {
   SamplePass pass({{-1, -2}, {2, 1}}, 2);
   EXPECT_EQ(pass.samplesPerPixel(), 2);

@@ -26,7 +26,8 @@ TEST(WeightedSums, ComeBackExactlyFromAFloatImage) {
              {.pixelType = PixelType::Float});
   const Image back = readImage(folder.path() / "a.exr");
   ASSERT_TRUE(sumsOf(back));
-  EXPECT_EQ(*sumsOf(back), sums);
+  EXPECT_EQ(sumsOf(back)->colours, sums);
+  EXPECT_TRUE(sumsOf(back)->others.empty());
   EXPECT_EQ(developmentOf(back).scale, .1f);
   EXPECT_TRUE(developmentOf(back).keepsNegatives);
   const Image plain = withoutSums(back);
@@ -38,6 +39,21 @@ TEST(WeightedSums, ComeBackExactlyFromAFloatImage) {
   EXPECT_EQ(plain.metadata.at("seed"), "5");
   EXPECT_FALSE(plain.metadata.contains("filmScale"));
   EXPECT_FALSE(sumsOf(plain));
+}
+
+TEST(WeightedSums, HaveAsManyOthersBesideThemAsAreWanted) {
+  // Numbers of two digits come after those of one, whatever the order of names in a file.
+  std::vector<double> others;
+  for (int i = 0; i < 22; ++i) others.push_back(std::sqrt(i) * 1e3);
+  const TemporaryFolder folder;
+  writeImage(folder.path() / "a.exr", withSums(Image(2, 1), someSums(), {}, others),
+             {.pixelType = PixelType::Half});
+  const auto back = sumsOf(readImage(folder.path() / "a.exr"));
+  ASSERT_TRUE(back) << "half floats are for colours alone";
+  EXPECT_EQ(back->colours, someSums());
+  EXPECT_EQ(back->others, others);
+  EXPECT_EQ(withoutSums(readImage(folder.path() / "a.exr")).channelCount(), 3u);
+  EXPECT_THROW(withSums(Image(2, 1), someSums(), {}, std::span(others).first(3)), std::invalid_argument);
 }
 
 TEST(WeightedSums, AreNoneWhenTheyWereChanged) {

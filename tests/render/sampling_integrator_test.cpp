@@ -336,16 +336,17 @@ TEST(RenderLoop, FillsTheLayersThatTheFilmWasAskedFor) {
   });
   Film::Settings settings;
   settings.resolution = {36, 8};
-  settings.layers.add(Layer::Lookups);
+  settings.layers = LayerSet(maskOf({Layer::Lookups, Layer::Samples}));
   const RandomSampler sampler({.pixelSamples = 5, .seed = 1});
   Film film(settings, BoxFilter({.radius = {.5f, .5f}}));
   integrator.render(FlatCamera(), sampler, film, {});
   const Image image = film.develop();
-  ASSERT_EQ(image.channels(), (std::vector<std::string>{"R", "G", "B", "lookups"}));
+  ASSERT_EQ(image.channels(), (std::vector<std::string>{"R", "G", "B", "samples", "lookups"}));
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 36; ++x) {
       EXPECT_EQ(image.at(x, y, 0), 1);
-      EXPECT_EQ(image.at(x, y, 3), x < 18 ? 3 : 7);
+      EXPECT_EQ(image.at(x, y, 3), 5);
+      EXPECT_EQ(image.at(x, y, 4), 5 * (x < 18 ? 3 : 7));
     }
   }
 }

@@ -45,6 +45,36 @@ TEST(MergeRenders, OfMergesEqualsOneMerge) {
   for (std::size_t i = 0; i < once.data().size(); ++i) EXPECT_FLOAT_EQ(twice.data()[i], once.data()[i]);
 }
 
+TEST(MergeRenders, MergesLayersByWhatTheyAre) {
+  const auto layered = [](const std::string& name, std::vector<float> values, const std::string& samples) {
+    NamedImage out = render(name, 0, samples, name);
+    out.image = Image(1, 1, {"R", "G", "B", "A", "Z", "lookups", "variance.R", "variance.G", "variance.B"},
+                      std::move(values));
+    out.image.metadata = render(name, 0, samples, name).image.metadata;
+    out.image.metadata["layers"] = "variance,lookups,alpha,depth";
+    return out;
+  };
+  const NamedImage a = layered("1", {1, 1, 1, .5f, 4, 100, 8, 8, 8}, "10"),
+                   b = layered("2", {2, 2, 2, .75f, 8, 50, 4, 4, 0}, "30"),
+                   empty = layered("3", {0, 0, 0, 0, 0, 7, 0, 0, 0}, "40");
+  const Image ab = mergeRenders({a, b});
+  EXPECT_EQ(ab.data(),
+            (std::vector<float>{1.75f, 1.75f, 1.75f, .6875f, 7, 150, 8.0f / 16 + 4 * 9.0f / 16, 2.75f, .5f}));
+  EXPECT_EQ(ab.metadata.at("layers"), "variance,lookups,alpha,depth");
+  const Image all = mergeRenders({a, b, empty});
+  EXPECT_FLOAT_EQ(all.at(0, 0, 3), .34375f) << "a mean over all";
+  EXPECT_FLOAT_EQ(all.at(0, 0, 4), 7) << "a depth of those that have any";
+  EXPECT_EQ(all.at(0, 0, 5), 157);
+  // In steps it is the same.
+  const Image steps = mergeRenders({{"ab", ab}, empty});
+  for (std::size_t i = 0; i < all.data().size(); ++i) EXPECT_FLOAT_EQ(steps.data()[i], all.data()[i]) << i;
+  NamedImage strange = a;
+  strange.image.metadata["layers"] = "variance,glow";
+  expectRefused({strange, b}, "\"glow\", which this program does not know");
+  strange.image.metadata["layers"] = "albedo";
+  expectRefused({strange, b}, "the channels of layer \"albedo\" are not there");
+}
+
 TEST(MergeRenders, AccumulatesInDouble) {
   // In float, 2^24 + 1 stays 2^24: the small renders would vanish.
   std::vector<NamedImage> inputs{render("big", 0x1p24f, "1", "0")};

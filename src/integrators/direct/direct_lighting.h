@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include "render/ray_layers.h"
 #include "render/sampling_integrator.h"
 #include "world/scene.h"
 
@@ -23,6 +24,7 @@ class DirectLightingIntegrator final : public SamplingIntegrator {
   DirectLightingIntegrator(const Scene& scene, const DirectLightingParams& params)
       : SamplingIntegrator(scene), params_(params) {}
   std::string_view typeName() const override { return "directlighting"; }
+  LayerMask layersOfRays() const override { return RayLayers::ofSurfaces(); }
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
 
  private:

@@ -5,6 +5,7 @@
 
 #include "base/interruption.h"
 #include "lights/light.h"
+#include "materials/albedo.h"
 #include "materials/bsdf.h"
 #include "materials/material.h"
 #include "world/line_walk.h"
@@ -90,9 +91,18 @@ LitSample sampleLight(const Scene& scene, const ShadedPoint& point, std::size_t 
   return lit;
 }
 
+Rgb SpecularRecursion::radiance(const RayDifferential& cameraRay) {
+  if (!context_.layers.isWanted()) return evaluate(cameraRay);
+  RayLayers layers(context_.layers);
+  layers_ = &layers;
+  const Rgb radiance = evaluate(cameraRay);
+  layers.finish();
+  return radiance;
+}
+
 /// What is still open are nested expressions a + b (c + d (...)), evaluated from the inside as a recursive
 /// function would, however deep.
-Rgb SpecularRecursion::radiance(const RayDifferential& cameraRay) {
+Rgb SpecularRecursion::evaluate(const RayDifferential& cameraRay) {
   std::vector<Open> open;
   std::optional<Next> next = Next{cameraRay, {}, 0, Rgb(1.0f), Rgb(1.0f)};
   for (;;) {
@@ -124,6 +134,17 @@ Rgb SpecularRecursion::radiance(const RayDifferential& cameraRay) {
   }
 }
 
+/// Radiance found at the end of a ray, scattered so often on its way to the camera.
+void SpecularRecursion::tell(const Next& at, Rgb radiance, int scatterings) const {
+  if (layers_) layers_->addRadiance(at.throughput * radiance, scatterings, RayLayers::Scatterer::Surface);
+}
+
+void SpecularRecursion::tellSurface(const ShadedPoint& point) const {
+  const SurfaceInteraction& si = point.si;
+  layers_->addSurface(Rgb(1), point.hit.t(), faceForward(point.bsdf.shadingNormal(), si.wo), si.p,
+                      layers_->wantsAlbedo() ? albedoOf(point.bsdf, si.wo) : Rgb());
+}
+
 /// Emission and direct light of what the ray meets. `vertex`: that, where specular lobes are to be followed.
 Rgb SpecularRecursion::visit(const Next& at, std::unique_ptr<Vertex>& vertex) {
   Rgb sum;
@@ -136,17 +157,25 @@ Rgb SpecularRecursion::visit(const Next& at, std::unique_ptr<Vertex>& vertex) {
     const std::optional<SceneHit> hit = walk.next(context_.counters.rays);
     if (!hit) {
       for (const std::uint32_t i : scene_.infiniteLights()) sum += scene_.lights()[i]->background(ray.d);
+      if (layers_ && isFromCamera) layers_->addEscape(Rgb(1));
+      tell(at, sum, at.level);
       return sum;
     }
     const Material* const material = hit->primitive->material;
     if (!material) continue;  // nor is it seen that it emits, as in PBRT-v3
     ShadedPoint point{*hit, scene_.surface(*hit, ray), {}, ray.time};
     if (hit->isEmitter()) sum += hit->areaLight().emitted(point.si.n, point.si.wo);
+    tell(at, sum, at.level);
     if (ray.hasDifferentials) point.si.computeDifferentials(ray);
     ++context_.counters.surfaceScatterings;
     samples_.startVertex(at.level);
     point.bsdf = material->bsdf(point.si, TransportMode::Radiance, /*mergeSpecular=*/false);
-    if (point.bsdf.count(BsdfFlags::AllButSpecular) > 0) sum += lighting_(point, samples_);
+    if (layers_ && isFromCamera) tellSurface(point);
+    if (point.bsdf.count(BsdfFlags::AllButSpecular) > 0) {
+      const Rgb lit = lighting_(point, samples_);
+      tell(at, lit, at.level + 1);
+      sum += lit;
+    }
     if (at.level + 1 < maxDepth_ && point.bsdf.count() > point.bsdf.count(BsdfFlags::AllButSpecular)) {
       vertex = std::make_unique<Vertex>(Vertex{point, ray, at.level, at.throughput});
     }

@@ -9,6 +9,7 @@
 #include "integrators/path/path_samples.h"
 #include "lights/light.h"
 #include "materials/bsdf.h"
+#include "render/ray_layers.h"
 #include "render/sample_context.h"
 #include "world/scene.h"
 #include "world/visibility.h"
@@ -36,6 +37,7 @@ class SpecularRecursion {
   using Lighting = std::function<Rgb(const ShadedPoint&, PathSamples&)>;
   SpecularRecursion(const Scene& scene, int maxDepth, const Lighting& lighting, SampleContext& context)
       : scene_(scene), maxDepth_(maxDepth), lighting_(lighting), context_(context), samples_(context) {}
+  /// Once: it also tells the layers that are wanted.
   Rgb radiance(const RayDifferential& cameraRay);
 
   /// Up to this level sums and products are rounded in the order in which a recursive function makes them,
@@ -64,6 +66,9 @@ class SpecularRecursion {
     std::unique_ptr<Vertex> vertex;
     std::unique_ptr<Next> rest;
   };
+  Rgb evaluate(const RayDifferential& cameraRay);
+  void tell(const Next& at, Rgb radiance, int scatterings) const;
+  void tellSurface(const ShadedPoint& point) const;
   Rgb visit(const Next& at, std::unique_ptr<Vertex>& vertex);
   std::optional<Next> descend(Rgb value, std::unique_ptr<Vertex> vertex, std::vector<Open>& open);
   std::optional<Next> follow(const Vertex& from, BsdfFlags side);
@@ -73,6 +78,7 @@ class SpecularRecursion {
   const Lighting& lighting_;
   SampleContext& context_;
   PathSamples samples_;
+  RayLayers* layers_ = nullptr;  ///< null: nobody wants to know
 };
 
 /// The auxiliary rays of a ray mirrored at, or refracted through, a surface; after Igehy 1999,

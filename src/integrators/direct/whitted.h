@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include "render/ray_layers.h"
 #include "render/sampling_integrator.h"
 #include "world/scene.h"
 
@@ -19,6 +20,7 @@ class WhittedIntegrator final : public SamplingIntegrator {
   WhittedIntegrator(const Scene& scene, const WhittedParams& params)
       : SamplingIntegrator(scene), params_(params) {}
   std::string_view typeName() const override { return "whitted"; }
+  LayerMask layersOfRays() const override { return RayLayers::ofSurfaces(); }
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
 
  private:

@@ -14,6 +14,11 @@ PathIntegrator::PathIntegrator(const Scene& scene, const PathParams& params,
 }
 PathIntegrator::~PathIntegrator() = default;
 
+LayerMask PathIntegrator::layersOfRays() const {
+  // Without scattering nobody asks what the camera ray meets.
+  return params_.maxDepth > 0 ? RayLayers::ofSurfaces() : RayLayers::ofRadiance(/*rendersMedia=*/false);
+}
+
 Rgb PathIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
   const PathSetup setup{scene(), params_, scene().lights().size(), selector_.get(), nullptr, nullptr, false};
   return PathTracer(setup, ray, MediumState(), context).trace();

@@ -35,6 +35,7 @@ class PathIntegrator final : public SamplingIntegrator {
   PathIntegrator(const Scene& scene, const PathParams& params, std::unique_ptr<const LightSelector> selector);
   ~PathIntegrator() override;
   std::string_view typeName() const override { return "path"; }
+  LayerMask layersOfRays() const override;
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
 
  private:

@@ -52,7 +52,14 @@ PathTracer::PathTracer(const PathSetup& setup, const RayDifferential& ray, const
       ray_(ray),
       state_(start) {}
 
-Rgb PathTracer::trace() { return scatterFrom(flyToEvent()); }
+Rgb PathTracer::trace() {
+  if (!context_.layers.isWanted()) return scatterFrom(flyToEvent());
+  RayLayers layers(context_.layers);
+  layers_ = &layers;
+  const Rgb radiance = scatterFrom(flyToEvent());
+  layers.finish();
+  return radiance;
+}
 
 Rgb PathTracer::scatterFrom(Event event) {
   for (;; event = flyToEvent()) {
@@ -107,6 +114,7 @@ PathTracer::Event PathTracer::followWay(Way& way) {
     }
     const std::optional<SceneHit> hit = walk.next();
     if (!hit) {
+      if (layers_ && bounces_ == 0) layers_->addEscape(beta_);
       collectBackground();
       return Event::End;
     }
@@ -222,6 +230,7 @@ bool PathTracer::scatterOnSurface() {
   SurfaceInteraction& si = surface_.si;
   const Bsdf bsdf =
       surface_.hit.primitive->material->bsdf(si, TransportMode::Radiance, /*mergeSpecular=*/true);
+  if (layers_ && bounces_ == 0) tellSurface(bsdf);
   ownsUniformLights_ = samplingCoversBsdf(bsdf, si);
   if (bsdf.count(BsdfFlags::AllButSpecular) > 0) lightSurface(bsdf);
 
@@ -255,6 +264,7 @@ bool PathTracer::scatterInMedium() {
     return false;
   }
   samples_.startVertex(bounces_);
+  if (layers_ && bounces_ == 0) tellScattering();
   // A phase function samples a uniform light perfectly, but not what dims it on the way: where light sampling
   // adds a second, independent look through the medium, it pays (variance and time change by like factors).
   ownsUniformLights_ = false;

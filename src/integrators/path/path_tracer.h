@@ -8,6 +8,7 @@
 #include "integrators/path/path_samples.h"
 #include "materials/bsdf.h"
 #include "media/phase/phase_function.h"
+#include "render/ray_layers.h"
 #include "singlescattering/single_scattering.h"
 #include "world/media_walk.h"
 #include "world/visibility.h"
@@ -64,6 +65,10 @@ class PathTracer {
   Rgb scatterFrom(Event event);
   // Each path event is one function. Those that return bool tell whether the path goes on.
   Event flyToEvent();
+  /// Adds radiance that was scattered so often; `here`: by what at the vertex at hand.
+  void gather(Rgb radiance, int scatterings, RayLayers::Scatterer here);
+  void tellSurface(const Bsdf& bsdf);
+  void tellScattering();
   Event followWay(Way& way);
   bool passMedium(const Way& way, const SceneHit* hit, Event& event);
   bool splitsChannels() const;
@@ -105,6 +110,8 @@ class PathTracer {
   BoundaryPlane startPlane_;
   ScatterPoint from_;  ///< where the ray starts, if in a medium
   MediumState state_;
+  RayLayers* layers_ = nullptr;   ///< null: nobody wants to know
+  RayLayers::Scatterer first_{};  ///< what scattered first, once something has
   SurfaceVertex surface_;
   MediumVertex medium_{};
 

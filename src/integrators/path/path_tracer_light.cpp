@@ -4,10 +4,28 @@
 
 #include "base/warp.h"
 #include "integrators/path/path_tracer.h"
+#include "materials/albedo.h"
 #include "materials/bsdf.h"
 #include "world/medium_light.h"
 
 namespace pbrtmedia {
+
+void PathTracer::gather(Rgb radiance, int scatterings, RayLayers::Scatterer here) {
+  radiance_ += radiance;
+  if (layers_) layers_->addRadiance(radiance, scatterings, bounces_ == 0 ? here : first_);
+}
+
+void PathTracer::tellSurface(const Bsdf& bsdf) {
+  const SurfaceInteraction& si = surface_.si;
+  first_ = RayLayers::Scatterer::Surface;
+  layers_->addSurface(beta_, surface_.hit.t(), faceForward(bsdf.shadingNormal(), si.wo), si.p,
+                      layers_->wantsAlbedo() ? albedoOf(bsdf, si.wo) : Rgb());
+}
+
+void PathTracer::tellScattering() {
+  first_ = RayLayers::Scatterer::Medium;
+  layers_->addScattering(beta_, medium_.t);
+}
 
 /// A light and a point on it; nothing when light sampling has no part in the estimate.
 std::optional<PathTracer::PickedLight> PathTracer::pickLight(Point3f p, bool scatteringFindsUniformLights) {
@@ -85,7 +103,8 @@ void PathTracer::lightSurface(const Bsdf& bsdf) {
                                context_.mismatches);
   }
   const Exclusions start = surface_.coincident.startingWith(surface_.hit.hit.id);
-  radiance_ += beta_ * f * (weight / s.pdf) * arriving(*light, si.p, start, state);
+  gather(beta_ * f * (weight / s.pdf) * arriving(*light, si.p, start, state), bounces_ + 1,
+         RayLayers::Scatterer::Surface);
 }
 
 void PathTracer::lightMedium() {
@@ -96,7 +115,8 @@ void PathTracer::lightMedium() {
   if (!(phase > 0)) return;
   const float weight = lightWeight(*light, phase) * collisionShare(light->index, medium_.at.p);
   if (!(weight > 0)) return;
-  radiance_ += beta_ * (phase * weight / s.pdf) * arriving(*light, medium_.at.p, {}, state_, &medium_.at);
+  gather(beta_ * (phase * weight / s.pdf) * arriving(*light, medium_.at.p, {}, state_, &medium_.at),
+         bounces_ + 1, RayLayers::Scatterer::Medium);
 }
 
 /// Single scattering of a light at one point, at a distance chosen for that light. The flight that follows
@@ -107,8 +127,8 @@ void PathTracer::lightStretch(const LitStretch& stretch, const SceneHit* hit, co
   if (!sample) return;
   const ScatterPoint at = mediumPoint(sample->t, stretch.media.tMax(), hit, start);
   if (!isFinite(at.p)) return;
-  radiance_ +=
-      setup_.singleScattering->radiance(stretch, *sample, at, beta_, shadowContext(), context_.stream());
+  gather(setup_.singleScattering->radiance(stretch, *sample, at, beta_, shadowContext(), context_.stream()),
+         bounces_ + 1, RayLayers::Scatterer::Medium);
 }
 
 /// What the media emit between two surfaces.
@@ -125,7 +145,7 @@ void PathTracer::collectMediumEmission(const MediaStretch& stretch) {
     for (const EmissionSamples::Sample& e : found) {
       // Light samples look inside the span only.
       const bool isShared = span && e.t >= span->tMin && e.t <= span->tMax;
-      radiance_ += beta_ * e.radiance * (isShared ? weight : 1.0f);
+      gather(beta_ * e.radiance * (isShared ? weight : 1.0f), bounces_, first_);
     }
   }
 }
@@ -155,13 +175,13 @@ void PathTracer::collectEmission(Way& way, const SceneHit& hit, const SurfaceInt
     way.passedEmitters.push_back(hit.hit.id.geometry);
   }
   const Rgb emitted = hit.areaLight().emitted(si.n, si.wo);
-  if (!emitted.isBlack()) radiance_ += beta_ * emitted * emissionWeight(hit.light, &si);
+  if (!emitted.isBlack()) gather(beta_ * emitted * emissionWeight(hit.light, &si), bounces_, first_);
 }
 
 void PathTracer::collectBackground() {
   for (const std::uint32_t light : setup_.scene.infiniteLights()) {
     const Rgb background = setup_.scene.lights()[light]->background(ray_.d);
-    if (!background.isBlack()) radiance_ += beta_ * background * emissionWeight(light, nullptr);
+    if (!background.isBlack()) gather(beta_ * background * emissionWeight(light, nullptr), bounces_, first_);
   }
 }
 

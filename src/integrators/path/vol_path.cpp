@@ -18,6 +18,11 @@ VolPathIntegrator::VolPathIntegrator(const Scene& scene, const PathParams& param
 }
 VolPathIntegrator::~VolPathIntegrator() = default;
 
+LayerMask VolPathIntegrator::layersOfRays() const {
+  // Without scattering nobody asks what the camera ray meets.
+  return params_.maxDepth > 0 ? RayLayers::ofMedia() : RayLayers::ofRadiance(/*rendersMedia=*/true);
+}
+
 Rgb VolPathIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
   // Without media and shadowalpha the yes/no occlusion query answers the same and is faster.
   const bool hasMedia = media_.hasMedia();

@@ -4,6 +4,9 @@
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+
+#include "tools/imgtool/layers.h"
 
 namespace pbrtmedia {
 namespace {
@@ -35,6 +38,10 @@ Image converted(Image image, const ConvertOptions& options) {
     const float factor = options.scale.value_or(1.0f) * std::exp2(options.exposure.value_or(0.0f));
     if (!std::isfinite(factor)) throw std::runtime_error("--scale and --exposure need a finite factor");
     scaleColors(image, factor);
+    changed = true;
+  }
+  if (options.offset) {
+    offsetColors(image, *options.offset);
     changed = true;
   }
   if (options.despike) {
@@ -78,7 +85,9 @@ Image converted(Image image, const ConvertOptions& options) {
 int runConvert(const ConvertOptions& options) {
   requireWritable(options.output);
   try {
-    writeImage(options.output, converted(loadLinear(options.input).image, options), options.write);
+    Image image = loadLinear(options.input).image;
+    if (!options.layer.empty()) image = layerAlone(options.input, image, options.layer);
+    writeImage(options.output, converted(std::move(image), options), options.write);
   } catch (const std::invalid_argument& e) {
     throw std::runtime_error(options.input + ": " + e.what());
   }

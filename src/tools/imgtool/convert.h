@@ -14,9 +14,11 @@ namespace pbrtmedia {
 /// Options of `imgtool convert`, applied in the order of the members.
 struct ConvertOptions {
   std::string input = {}, output = {};
+  std::string layer = {};              ///< "": all channels
   std::vector<int> crop = {};          ///< empty, or x0 x1 y0 y1 in pixels of the file, upper ends exclusive
   std::optional<float> scale = {};     ///< factor
   std::optional<float> exposure = {};  ///< stops: factor 2^exposure
+  std::optional<float> offset = {};    ///< added to values
   std::optional<float> despike = {};   ///< luminance from which a pixel may be replaced
   std::optional<float> bloomLevel = {};  ///< luminance from which a pixel glows
   BloomParams bloom = {};                ///< its level is `bloomLevel`

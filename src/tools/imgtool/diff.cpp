@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "tools/imgtool/layers.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -134,7 +136,11 @@ int runDiff(const DiffOptions& options) {
   for (const std::string& file : {options.outfile, options.flipMap}) {
     if (!file.empty()) requireWritable(file);
   }
-  const LoadedImage test = loadLinear(options.test), reference = loadLinear(options.reference);
+  LoadedImage test = loadLinear(options.test), reference = loadLinear(options.reference);
+  if (!options.layer.empty()) {
+    test.image = layerAlone(options.test, test.image, options.layer);
+    reference.image = layerAlone(options.reference, reference.image, options.layer);
+  }
   const bool bothExr = test.format == ImageFormat::Exr && reference.format == ImageFormat::Exr;
   const auto result = compareImages(test.image, reference.image, options.epsilon);
   if (const auto* failure = std::get_if<ComparisonFailure>(&result)) {

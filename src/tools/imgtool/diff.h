@@ -12,6 +12,7 @@ namespace pbrtmedia {
 
 struct DiffOptions {
   std::string test, reference;
+  std::string layer;              ///< "": all channels
   std::string outfile;            ///< image of absolute differences, written when the images differ
   std::string flipMap;            ///< the map of FLIP errors, always written unless empty
   std::optional<double> diffTol;  ///< percent by which the means may differ

@@ -8,6 +8,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "image/channels.h"
+#include "tools/imgtool/layers.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -115,7 +118,9 @@ double logAverageLuminance(const Image& image) {
 int runInfo(const InfoOptions& options) {
   json all = json::array();
   for (const std::string& file : options.files) {
-    const LoadedImage loaded = loadLinear(file);
+    LoadedImage loaded = loadLinear(file);
+    if (!options.layer.empty())
+      loaded.image = withChannels(loaded.image, channelsOfLayer(file, loaded.image, options.layer));
     if (options.json) {
       all.push_back(infoJson(file, loaded));
     } else {

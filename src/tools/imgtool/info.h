@@ -24,6 +24,7 @@ double logAverageLuminance(const Image& image);
 
 struct InfoOptions {
   std::vector<std::string> files;
+  std::string layer;  ///< "": all channels
   bool json = false;
 };
 

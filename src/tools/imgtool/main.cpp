@@ -20,6 +20,9 @@ namespace {
 
 using Run = std::function<int()>;
 
+constexpr const char* kLayerHelp =
+    "only this layer: a name (normal, albedo, colour ...), a prefix of channels (N), or a channel (N.X)";
+
 /// --pixeltype and --compression of commands that write EXR; the same words as those of pbrt.
 void addWriteOptions(CLI::App* command, WriteOptions& write) {
   const std::map<std::string, PixelType> pixelTypes{{"half", PixelType::Half}, {"float", PixelType::Float}};
@@ -36,6 +39,7 @@ void addWriteOptions(CLI::App* command, WriteOptions& write) {
 void addInfo(CLI::App& app, InfoOptions& o, Run& run) {
   CLI::App* c = app.add_subcommand("info", "Print size, windows, channels, metadata and statistics");
   c->add_option("files", o.files, "images")->required();
+  c->add_option("--layer", o.layer, kLayerHelp)->type_name("NAME");
   c->add_flag("--json", o.json, "print a JSON array instead of text");
   c->callback([&o, &run] { run = [&o] { return runInfo(o); }; });
 }
@@ -43,10 +47,12 @@ void addInfo(CLI::App& app, InfoOptions& o, Run& run) {
 void addConvert(CLI::App& app, ConvertOptions& o, Run& run) {
   CLI::App* c = app.add_subcommand("convert", "Convert between formats and process");
   c->footer(
-      "Steps are applied in this order: crop, scale and exposure, despike, bloom, tonemap, preservecolors,\n"
+      "Steps are applied in this order: layer, crop, scale and exposure, offset, despike, bloom, tonemap, "
+      "preservecolors,\n"
       "resize, repeatpix, flipy. PNG and TGA are linearised on reading and sRGB-encoded on writing.");
   c->add_option("input", o.input, "image to read")->required();
   c->add_option("output", o.output, "image to write: .exr, .pfm, .png or .tga")->required();
+  c->add_option("--layer", o.layer, kLayerHelp)->type_name("NAME");
   constexpr double kLargest = 1e30;  // of factors and luminances: well within float
   c->add_option("--crop", o.crop, "x0 x1 y0 y1: pixels to keep, upper ends exclusive")
       ->expected(4)
@@ -55,6 +61,8 @@ void addConvert(CLI::App& app, ConvertOptions& o, Run& run) {
       ->check(number(NumberRange::between(-kLargest, kLargest)));
   c->add_option("--exposure", o.exposure, "multiply values by 2^stops")
       ->check(number(NumberRange::between(-100, 100)));
+  c->add_option("--offset", o.offset, "then add this: --layer normal --scale 0.5 --offset 0.5")
+      ->check(number(NumberRange::between(-kLargest, kLargest)));
   c->add_option("--despike", o.despike, "replace pixels of at least this luminance by the 3x3 median")
       ->check(number(NumberRange::between(0, kLargest)));
   CLI::Option* level =
@@ -94,6 +102,7 @@ void addDiff(CLI::App& app, DiffOptions& o, Run& run) {
       "limits when none is exceeded. Different size, channels or windows, NaN or infinity never agree.");
   c->add_option("a", o.test, "image to judge")->required();
   c->add_option("b", o.reference, "reference")->required();
+  c->add_option("--layer", o.layer, kLayerHelp)->type_name("NAME");
   c->add_option("--difftol", o.diffTol, "percent by which the means may differ; 0: no pixel may differ")
       ->check(number(NumberRange::atLeast(0)));
   c->add_option("--max-mse", o.maxMse, "limit of the mean squared error")

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tools/imgtool/layers.h"
 #include "tools/imgtool/merge_ranges.h"
 
 namespace pbrtmedia {
@@ -52,6 +53,7 @@ Image mergeRenders(const std::vector<NamedImage>& inputs) {
   std::map<std::uint64_t, std::string> owners;
   std::string seedList;
   double totalSamples = 0;
+  std::vector<double> samplesOfEach;
   std::vector<double> sum(inputs.front().image.data().size());
   for (const NamedImage& input : inputs) {
     requireSameScene(inputs.front(), input);
@@ -67,10 +69,12 @@ Image mergeRenders(const std::vector<NamedImage>& inputs) {
     }
     const double samples = samplesOf(input);
     totalSamples += samples;
+    samplesOfEach.push_back(samples);
     addWeighted(sum, input, samples);
   }
   Image out = inputs.front().image;
   for (std::size_t i = 0; i < sum.size(); ++i) out.data()[i] = static_cast<float>(sum[i] / totalSamples);
+  mergeLayers(inputs, samplesOfEach, out);
   out.metadata = mergedMetadata(inputs);
   out.metadata["seed"] = seedList;
   return out;

@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "film/layer_sums.h"
 #include "image/weighted_sums.h"
+#include "tools/imgtool/layers.h"
 #include "tools/imgtool/same_scene.h"
 
 namespace pbrtmedia {
@@ -80,29 +82,38 @@ void requireSameRender(const NamedImage& first, const NamedImage& other) {
   requireKnownBounds(other);
 }
 
-std::vector<WeightedSums> requiredSums(const NamedImage& input) {
-  std::optional<std::vector<WeightedSums>> sums = sumsOf(input.image);
-  if (!sums) failMerge(input.name, "no channels \"sums...\"; ranges are merged as pbrt --samples wrote them");
+PixelSums requiredSums(const NamedImage& input, const LayerSet& layers) {
+  std::optional<PixelSums> sums = sumsOf(input.image);
+  if (!sums || sums->others.size() != sums->colours.size() * layers.sumCount())
+    failMerge(input.name, "no channels \"sums...\"; ranges are merged as pbrt --samples wrote them");
   return std::move(*sums);
 }
 
-/// Channels that have no sums (layers): means, weighted by the pixels' weights.
-void averageOthers(const std::vector<NamedImage>& inputs, const std::vector<std::vector<WeightedSums>>& parts,
-                   Image& out) {
-  for (std::size_t c = 0; c < out.channelCount(); ++c) {
-    const std::string& name = out.channels()[c];
-    if (name == "R" || name == "G" || name == "B") continue;
-    std::size_t i = 0;
-    for (int y = 0; y < out.height(); ++y) {
-      for (int x = 0; x < out.width(); ++x, ++i) {
-        double sum = 0, weight = 0;
-        for (std::size_t k = 0; k < inputs.size(); ++k) {
-          const double w = parts[k][i].weight;
-          sum += w * static_cast<double>(inputs[k].image.at(x, y, *inputs[k].image.channelIndex(name)));
-          weight += w;
-        }
-        out.at(x, y, c) = weight != 0 ? static_cast<float>(sum / weight) : 0;
-      }
+PixelSums added(const std::vector<NamedImage>& inputs, const LayerSet& layers) {
+  PixelSums sums;
+  for (const NamedImage& input : inputs) {
+    PixelSums part = requiredSums(input, layers);
+    if (sums.colours.empty()) {
+      sums = std::move(part);
+      continue;
+    }
+    for (std::size_t i = 0; i < sums.colours.size(); ++i) sums.colours[i] += part.colours[i];
+    for (std::size_t i = 0; i < sums.others.size(); ++i) sums.others[i] += part.others[i];
+  }
+  return sums;
+}
+
+void develop(const PixelSums& sums, const LayerSet& layers, const Development& development, Image& out) {
+  std::vector<float> values(layers.channelCount());
+  std::vector<std::size_t> channels;
+  for (const std::string& name : layers.channelNames()) channels.push_back(out.channelIndex(name).value());
+  std::size_t i = 0;
+  for (int y = 0; y < out.height(); ++y) {
+    for (int x = 0; x < out.width(); ++x, ++i) {
+      out.setRgb(x, y, development.colour(sums.colours[i]));
+      developLayers(layers, std::span(sums.others).subspan(i * layers.sumCount(), layers.sumCount()),
+                    sums.colours[i], development, values.data());
+      for (std::size_t c = 0; c < channels.size(); ++c) out.at(x, y, channels[c]) = values[c];
     }
   }
 }
@@ -120,26 +131,18 @@ Image mergeRanges(std::vector<NamedImage> inputs) {
   const std::vector<Range> ranges = apart(inputs);
   std::sort(inputs.begin(), inputs.end(),
             [](const NamedImage& a, const NamedImage& b) { return rangesOf(a) < rangesOf(b); });
-  std::vector<std::vector<WeightedSums>> parts;
-  for (const NamedImage& input : inputs) parts.push_back(requiredSums(input));
-  std::vector<WeightedSums> sums(parts.front().size());
-  for (const std::vector<WeightedSums>& part : parts) {
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += part[i];
-  }
+  const LayerSet layers = layersOf(inputs.front());
+  const PixelSums sums = added(inputs, layers);
   const Development development = developmentOf(inputs.front().image);
   Image out = withoutSums(inputs.front().image);
-  std::size_t i = 0;
-  for (int y = 0; y < out.height(); ++y) {
-    for (int x = 0; x < out.width(); ++x) out.setRgb(x, y, development.colour(sums[i++]));
-  }
-  averageOthers(inputs, parts, out);
+  develop(sums, layers, development, out);
   out.metadata = mergedMetadata(inputs);
   out.metadata["seed"] = requiredMetadata(inputs.front(), "seed");
   const std::string planned = requiredMetadata(inputs.front(), "samplesPlanned"), text = textOf(ranges);
   if (text == std::string("0:").append(planned)) return out;
   out.metadata["samplesPlanned"] = planned;
   out.metadata["sampleRange"] = text;
-  return withSums(out, sums, development);
+  return withSums(out, sums.colours, development, sums.others);
 }
 
 }  // namespace pbrtmedia

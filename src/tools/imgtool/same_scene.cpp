@@ -136,7 +136,7 @@ void requireKnownBounds(const NamedImage& input) {
 
 std::map<std::string, std::string> mergedMetadata(const std::vector<NamedImage>& inputs) {
   Image out;
-  for (const char* key : {"sceneHash", "sceneText", "mediumParams", "sceneFiles", "boundsState"})
+  for (const char* key : {"sceneHash", "sceneText", "mediumParams", "sceneFiles", "boundsState", "layers"})
     keepCommon(inputs, key, out);
   std::vector<const Image*> images;
   for (const NamedImage& input : inputs) images.push_back(&input.image);
