@@ -12,7 +12,7 @@
 #include "vdb2pbrt/conversion.h"
 #include "vdb2pbrt/crash_guard.h"
 #include "vdb2pbrt/describe_volume.h"
-#include "vdb2pbrt/frame_names.h"
+#include "base/frame_names.h"
 #include "vdb2pbrt/progress_line.h"
 #include "vdb2pbrt/sequence.h"
 

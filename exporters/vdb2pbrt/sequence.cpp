@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "vdb2pbrt/frame_names.h"
+#include "base/frame_names.h"
 
 namespace pbrtmedia {
 namespace {

@@ -7,7 +7,7 @@
 
 namespace pbrtmedia {
 
-/// Files whose names hold a place for the frame (vdb2pbrt/frame_names.h).
+/// Files whose names hold a place for the frame (base/frame_names.h).
 struct SequenceOptions {
   std::string input, output, scene;  ///< scene: "" for none
   std::string frames;                ///< a range (parseFrameRange), or "": all that are there

@@ -53,6 +53,24 @@ CLI::Validator sampleRange() {
   return CLI::Validator(check, "");
 }
 
+CLI::Validator frameRange() {
+  const auto check = [](std::string& text) -> std::string {
+    if (parseFrameRange(text)) return {};
+    return "found " + text +
+           ", expected FIRST:LAST or FIRST:LAST:STEP, whole numbers with FIRST <= LAST and STEP > 0";
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator definition() {
+  const auto check = [](std::string& text) -> std::string {
+    const std::size_t equals = text.find('=');
+    if (equals != std::string::npos && Variables::isName(text.substr(0, equals))) return {};
+    return "found " + text + ", expected NAME=VALUE, the name of letters, digits and _";
+  };
+  return CLI::Validator(check, "");
+}
+
 std::string shellQuoted(const std::string& word) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./,:@%";
@@ -72,6 +90,7 @@ class OptionList {
     app_.add_option("scene", scenes_, "scene files, read in order with one continuous state")
         ->type_name("FILE");
     addImage();
+    addVariables();
     addSampling();
     addMedia();
     addFiles();
@@ -87,6 +106,7 @@ class OptionList {
 
  private:
   void addImage();
+  void addVariables();
   void addSampling();
   void addMedia();
   void addFiles();
@@ -109,10 +129,11 @@ class OptionList {
       "pbrt"};
   Options options_;
   std::vector<std::string> scenes_;
+  std::vector<std::string> defines_;
   std::vector<float> crop_;
   std::vector<std::string> layers_;
-  std::string outfile_, samples_, stats_, boundsCache_, checkpoint_, resume_, convergence_, reference_,
-      displayServer_, serve_;
+  std::string outfile_, frames_, samples_, stats_, boundsCache_, checkpoint_, resume_, convergence_,
+      reference_, displayServer_, serve_;
   std::string progress_ = "auto", logDirectory_;
   int minLogLevel_ = 0, verbosity_ = 0;
   bool logToStderr_ = false;
@@ -138,6 +159,22 @@ void OptionList::addImage() {
       ->check(number(NumberRange::between(0, 1)))
       ->allow_extra_args(false)  // what follows is the scene
       ->type_name("X0 X1 Y0 Y1")
+      ->group(kRendering);
+}
+
+void OptionList::addVariables() {
+  app_.add_option("--define", defines_, "value of $NAME in the scene: a number, a word, or several in [ ]")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all()
+      ->check(definition())
+      ->type_name("NAME=VALUE")
+      ->group(kRendering);
+  app_.add_option("--frames", frames_,
+                  "render these frames, A:B or A:B:STEP; $frame is the number; so are ####, %04d and $F4 in "
+                  "strings and names of files")
+      ->check(frameRange())
+      ->type_name("A:B")
       ->group(kRendering);
 }
 
@@ -328,6 +365,11 @@ OptionsOutcome OptionList::read(const std::vector<std::string>& words) {
 
   for (const std::string& scene : scenes_) options_.scenes.emplace_back(scene);
   if (options_.scenes.empty()) options_.scenes.emplace_back("-");
+  for (const std::string& define : defines_) {
+    const std::size_t equals = define.find('=');
+    options_.variables.set(define.substr(0, equals), std::string_view(define).substr(equals + 1));
+  }
+  if (!frames_.empty()) options_.frames = parseFrameRange(frames_);
   if (!outfile_.empty()) options_.outfile = outfile_;
   if (!samples_.empty()) options_.samples = parseSampleRange(samples_);
   if (!stats_.empty()) options_.statsFile = stats_;

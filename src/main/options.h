@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "base/frame_names.h"
 #include "display/endpoint.h"
 #include "image/image.h"
+#include "scene/variables.h"
 
 namespace pbrtmedia {
 
@@ -23,6 +25,8 @@ struct SampleRange {
 /// The command line of `pbrt`, checked.
 struct Options {
   std::vector<std::filesystem::path> scenes;  ///< "-" alone: standard input
+  Variables variables{};                      ///< those of --define
+  std::optional<FrameRange> frames;           ///< rendered one after the other
   unsigned threads = 0;                       ///< 0: one per processor
   std::optional<std::filesystem::path> outfile;
   std::optional<std::array<float, 4>> cropWindow;  ///< x0 x1 y0 y1, fractions

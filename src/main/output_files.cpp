@@ -23,6 +23,8 @@ std::pair<std::string, SourceLocation> namedOutput(const SceneDescription& world
 
 }  // namespace
 
+std::string imageNameOf(const SceneDescription& world) { return namedOutput(world).first; }
+
 void requireWritable(const std::string& option, const fs::path& file) {
   const std::string reason = unwritableReason(file);
   if (!reason.empty())

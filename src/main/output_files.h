@@ -16,6 +16,9 @@ namespace pbrtmedia {
 /// SceneError with the option, the file and the reason.
 void requireWritable(const std::string& option, const std::filesystem::path& file);
 
+/// The image file of a world as Film or its default names it.
+std::string imageNameOf(const SceneDescription& world);
+
 /// Worlds whose images would have one name, so that only the last one stays, are reported where the later one
 /// names its file: tolerated, as PBRT-v3 renders both.
 void reportSharedOutputs(const std::vector<SceneDescription>& worlds, const Options& options,

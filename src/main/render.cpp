@@ -10,6 +10,7 @@
 #include "base/stop_signal.h"
 #include "base/stopwatch.h"
 #include "image/image.h"
+#include "main/frames.h"
 #include "main/kept_bounds.h"
 #include "main/messages.h"
 #include "main/output_files.h"
@@ -28,6 +29,7 @@ int printScenes(const Options& options) {
   diagnostics.strict = options.strict;
   PrintOptions print;
   print.meshesToPly = options.toPly;
+  print.variables = options.variables;
   if (const char* prefix = std::getenv("PLY_PREFIX")) print.plyPrefix = prefix;
   printFiles(options.scenes, std::cout, diagnostics, print);
   std::cout.flush();
@@ -74,10 +76,13 @@ void checkWorlds(const std::vector<SceneDescription>& worlds, const Options& opt
   reportSharedOutputs(worlds, options, diagnostics);
 }
 
-}  // namespace
+/// How a run ended.
+struct Outcome {
+  int status = 0;
+  bool isStopped = false;  ///< by a signal or a limit, before the end
+};
 
-int runPbrt(const Options& options) {
-  if (options.cat || options.toPly) return printScenes(options);
+Outcome renderScenes(const Options& options) {
   checkFiles(options);
   Checkpoints checkpoints(options);
   const ThreadLimit threads(options.threads);
@@ -93,20 +98,22 @@ int runPbrt(const Options& options) {
   std::vector<SceneDescription> worlds;
   try {
     const PhaseLine line(options.progress, options.quiet, "reading " + sceneNames(options));
-    worlds = parseFiles(options.scenes, diagnostics);
+    worlds = parseFiles(options.scenes, diagnostics, {.variables = options.variables});
   } catch (const Interrupted& stopped) {
     show(diagnostics, options.quiet);
-    return reportNoImage(stopped, options, ending, "while the scene was read");
+    return {reportNoImage(stopped, options, ending, "while the scene was read"),
+            stopped.cause() != StopCause::Time};
   }
   const PhaseTime parseTime = parsing.elapsed();
   checkWorlds(worlds, options, diagnostics);
   show(diagnostics, options.quiet);
   watching.add(diagnostics);
-  if (diagnostics.hasErrors()) return kExitBadInput;
+  if (diagnostics.hasErrors()) return {kExitBadInput};
 
   KeptBounds bounds(options.boundsCache);
   const Run run{options, ending, watching, bounds, checkpoints};
   int status = 0;
+  bool isStopped = false;
   std::vector<RenderStatistics> all;
   const std::size_t first = checkpoints.firstWorld(worlds.size());
   if (first > 0 && !options.quiet)
@@ -118,18 +125,46 @@ int runPbrt(const Options& options) {
       const std::optional<RenderStatistics> one =
           renderWorld(worlds[number], {number, worldName(options, number)}, run,
                       all.empty() ? parseTime : PhaseTime{}, status);
-      if (!one) return status;
+      if (!one) return {status};
       all.push_back(*one);
       checkpoints.leave(statisticsText(*one));
     } catch (const Interrupted& stopped) {
       const std::string which = worlds.size() > 1 ? " of world " + std::to_string(number + 1) : "";
       status = reportNoImage(stopped, options, ending, "before the first sample" + which);
+      isStopped = stopped.cause() == StopCause::Signal;
       break;
     }
-    if (all.back().interrupted && stop) break;
+    if (all.back().interrupted && stop) {
+      isStopped = all.back().stoppedBy == "signal";
+      break;
+    }
   }
   if (options.statsFile && !all.empty()) writeStatistics(*options.statsFile, checkpoints.worldsDone());
+  return {status, isStopped};
+}
+
+/// One after the other; a problem of one does not keep the others.
+int renderFrames(const Options& options) {
+  checkFrames(options);
+  const FrameRange& frames = *options.frames;
+  int status = 0;
+  for (int frame = frames.first; frame <= frames.last; frame += frames.step) {
+    if (!options.quiet)
+      std::cerr << "pbrt: frame " << frame << " of " << frames.first << " to " << frames.last << '\n';
+    const Outcome one = renderScenes(optionsOfFrame(options, frame));
+    if (status == 0) status = one.status;
+    if (one.isStopped || frame > frames.last - frames.step) break;
+  }
   return status;
+}
+
+}  // namespace
+
+int runPbrt(const Options& options) {
+  if (options.cat || options.toPly) {
+    return printScenes(options.frames ? optionsOfFrame(options, options.frames->first) : options);
+  }
+  return options.frames ? renderFrames(options) : renderScenes(options).status;
 }
 
 }  // namespace pbrtmedia

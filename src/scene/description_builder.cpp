@@ -45,8 +45,9 @@ void DescriptionBuilder::apply(Statement s) {
     case Directive::WorldBegin:
     case Directive::WorldEnd:
       return applyBlock(s);
+    case Directive::Define:
     case Directive::Include:
-      return;
+      return;  // of the tokens
     default:
       return applyDefinition(s);
   }

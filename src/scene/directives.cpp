@@ -34,6 +34,7 @@ constexpr std::array kDirectives{
     transform("ConcatTransform", Directive::ConcatTransform, 16),
     named("CoordSysTransform", Directive::CoordSysTransform, Block::Any),
     named("CoordinateSystem", Directive::CoordinateSystem, Block::Any),
+    DirectiveInfo{"Define", Directive::Define, Block::Any, 0, 1, 1, false, false, "name of a variable", true},
     plugin("Film", Directive::Film, Block::Options),
     plain("Identity", Directive::Identity, Block::Any),
     named("Include", Directive::Include, Block::Any, "file name"),

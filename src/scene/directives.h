@@ -18,6 +18,7 @@ enum class Directive : std::uint8_t {
   ConcatTransform,
   CoordinateSystem,
   CoordSysTransform,
+  Define,
   Film,
   Identity,
   Include,
@@ -61,6 +62,7 @@ struct DirectiveInfo {
   bool parameters = false;
   bool word = false;
   std::string_view strings{};  ///< what the strings are, for messages: "name, flavour, class"
+  bool value = false;          ///< behind the strings: a number, a string, or several of them in brackets
 };
 
 std::span<const DirectiveInfo> directives();

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +42,8 @@ class Lexer {
   /// a bracket, a number with a problem), which `next` then gives.
   std::size_t readFloats(float* out, std::size_t most);
   std::size_t readInts(int* out, std::size_t most);
+  /// Whether `p` points into the text.
+  bool holds(const char* p) const { return !std::less<>()(p, begin_) && !std::less<>()(end_, p); }
   /// The line of the text around `p`, without its end; empty where it is longer than `most` bytes to one
   /// side.
   std::string_view lineAround(const char* p, std::ptrdiff_t most) const;

@@ -14,7 +14,7 @@ ParamList parseParams(std::string_view text, std::string_view shownName, Diagnos
   diagnostics.keepText(std::string(shownName), std::string(text));
   Diagnostics all;  // PBRT-v3 has no such text, so nothing of it is tolerated
   all.strict = true;
-  TokenStream tokens(all);
+  TokenStream tokens(all, {});
   const InputFolders folders{".", "."};
   tokens.pushText(text, shownName, folders);
   ParamParser parser(tokens, all, true);

@@ -15,7 +15,7 @@ class Parser {
   Parser(Diagnostics& diagnostics, const ParseOptions& options)
       : diagnostics_(diagnostics),
         options_(options),
-        tokens_(diagnostics),
+        tokens_(diagnostics, options.variables),
         params_(tokens_, diagnostics, options.readFiles),
         statements_(tokens_, params_),
         builder_(diagnostics),
@@ -52,6 +52,7 @@ class Parser {
   std::vector<SceneDescription> finish() {
     params_.looseNumbers().report();
     if (!stopped_) builder_.finish();
+    if (diagnostics_.errorCount() == 0) reportUnused();
     std::vector<SceneDescription> worlds = builder_.take();
     for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i].textHash = hashCombine(tokens_.textHash(), i);
     return worlds;
@@ -63,11 +64,35 @@ class Parser {
     try {
       if (s.info->id == Directive::Include) {
         include(s);
+      } else if (s.info->id == Directive::Define) {
+        define(s);
       } else {
         builder_.apply(std::move(s));
       }
     } catch (const SceneError& e) {
       diagnostics_.add(e);
+    }
+  }
+
+  void define(Statement& s) {
+    Statement::Text& name = s.strings[0];
+    if (!Variables::isName(name.text)) {
+      throw SceneError(name.at,
+                       "Define: found \"" + shown(name.text) +
+                           "\", expected the name of a variable: a letter, then letters, digits and _");
+    }
+    tokens_.variables().setDefault(name.text, std::move(s.value));
+  }
+
+  /// A name that was mistyped would leave the image as it was.
+  void reportUnused() {
+    Variables& variables = tokens_.variables();
+    for (const std::string_view name : variables.unused()) {
+      std::vector<std::string_view> others = variables.names();
+      std::erase(others, name);
+      std::string message = "--define " + std::string(name) + ": nothing in the scene uses $";
+      message += name;
+      diagnostics_.error({}, message + suggestion(name, others));
     }
   }
 

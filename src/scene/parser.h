@@ -9,6 +9,7 @@
 
 #include "base/diagnostics.h"
 #include "scene/description.h"
+#include "scene/variables.h"
 
 namespace pbrtmedia {
 
@@ -17,6 +18,7 @@ struct ParseOptions {
   std::size_t maxIncludeDepth = 128;   ///< files open at once
   std::size_t maxIncludes = 1u << 17;  ///< Include directives in all: stops files that multiply each other
   std::size_t maxErrors = 200;         ///< parsing stops after so many errors
+  Variables variables{};               ///< those of the command line; each must be used
 };
 
 /// Reads PBRT-v3 scene files in order with one continuous state; "-" is standard input. One description per

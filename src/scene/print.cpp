@@ -57,7 +57,7 @@ class Printer {
       : out_(out),
         diagnostics_(diagnostics),
         options_(options),
-        tokens_(diagnostics, /*keepComments=*/true),
+        tokens_(diagnostics, options.variables, /*keepComments=*/true),
         params_(tokens_, diagnostics, /*readFiles=*/true),
         statements_(tokens_, params_) {}
 
@@ -70,6 +70,7 @@ class Printer {
         if (diagnostics_.errorCount() > errors) break;
         printComments(tokens_.tokensTaken());
         printStatement(*s);
+        if (s->info->id == Directive::Define) tokens_.variables().setDefault(s->strings[0].text, s->value);
         if (s->info->id == Directive::WorldBegin || s->info->id == Directive::WorldEnd)
           isBehindWorld_ = s->info->id == Directive::WorldEnd;
       }
@@ -106,6 +107,7 @@ class Printer {
     for (std::size_t i = 0; i < s.info->numbers; ++i) out_ << ' ' << number(s.numbers[i]);
     if (s.info->numbers == 16) out_ << " ]";
     for (const Statement::Text& text : s.strings) out_ << ' ' << inQuotes(text.text);
+    if (s.info->value) out_ << ' ' << s.value;
     out_ << '\n';
     for (const Param& p : s.params.all()) printParam(p);
     if (begins) indent_ += kIndent;

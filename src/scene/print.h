@@ -8,14 +8,16 @@
 #include <string_view>
 
 #include "base/diagnostics.h"
+#include "scene/variables.h"
 
 namespace pbrtmedia {
 
 struct PrintOptions {
-  bool meshesToPly = false;         ///< --toply: big triangle meshes become PLY files
-  std::size_t minPlyIndices = 500;  ///< meshes with fewer indices stay in the text
-  std::filesystem::path plyFolder;  ///< where the files are written; "" is the working directory
-  std::string plyPrefix = "mesh";   ///< files are <prefix>_00001.ply, <prefix>_00002.ply, …
+  Variables variables{};              ///< those of the command line
+  bool meshesToPly = false;           ///< --toply: big triangle meshes become PLY files
+  std::size_t minPlyIndices = 500;    ///< meshes with fewer indices stay in the text
+  std::filesystem::path plyFolder{};  ///< where the files are written; "" is the working directory
+  std::string plyPrefix = "mesh";     ///< files are <prefix>_00001.ply, <prefix>_00002.ply, …
 };
 
 /// --cat: a normalised copy of scene files: one directive per line, indented by block, parameters on lines of

@@ -56,6 +56,7 @@ std::optional<Statement> StatementReader::next() {
   }
   if (s.info->numbers > 0) readNumbers(s);
   if (s.info->maxStrings > 0) readStrings(s);
+  if (s.info->value) readValue(s);
   if (s.info->parameters) s.params = params_.parse(*s.folders);
   return s;
 }
@@ -91,6 +92,33 @@ void StatementReader::readNumbers(Statement& s) {
     if (tokens_.peek().kind != Token::Kind::Close) wrong(tokens_.peek(), found(tokens_.peek()) + " after 16");
     tokens_.take();
   }
+}
+
+void StatementReader::readValue(Statement& s) {
+  const auto isValue = [](const Token& t) {
+    double ignored = 0;
+    return t.kind == Token::Kind::String ||
+           (t.kind == Token::Kind::Word && parseDouble(t.raw, ignored) == NumberStatus::Ok);
+  };
+  const auto append = [&](const Token& t) {
+    if (!s.value.empty()) s.value += ' ';
+    s.value += t.raw;
+  };
+  const auto wrong = [&](const Token& t, const std::string& expected) {
+    if (t.kind == Token::Kind::Unclosed) tokens_.throwUnclosed(t);
+    throw SceneError(tokens_.locate(t),
+                     std::string(s.info->name) + ": " + found(t) + ", expected " + expected);
+  };
+  const bool isBracketed = tokens_.peek().kind == Token::Kind::Open;
+  if (isBracketed) append(tokens_.take());
+  if (!isValue(tokens_.peek())) {
+    wrong(tokens_.peek(), "the variable's value: a number, a quoted string, or several of them in brackets");
+  }
+  append(tokens_.take());
+  if (!isBracketed) return;
+  while (isValue(tokens_.peek())) append(tokens_.take());
+  if (tokens_.peek().kind != Token::Kind::Close) wrong(tokens_.peek(), "numbers, quoted strings or ]");
+  append(tokens_.take());
 }
 
 void StatementReader::readStrings(Statement& s) {

@@ -26,6 +26,7 @@ struct Statement {
   SourceLocation wordAt;
   std::array<double, 16> numbers{};
   std::vector<Text> strings;
+  std::string value;  ///< of Define, as tokens
   ParamList params;
   std::shared_ptr<const InputFolders> folders;
 
@@ -43,6 +44,7 @@ class StatementReader {
  private:
   void readNumbers(Statement& s);
   void readStrings(Statement& s);
+  void readValue(Statement& s);
 
   TokenStream& tokens_;
   ParamParser& params_;

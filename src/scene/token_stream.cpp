@@ -2,6 +2,7 @@
 #include "scene/token_stream.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <system_error>
 
 #include "base/hash.h"
@@ -101,19 +102,58 @@ std::optional<std::string> TokenStream::cycleTo(const std::filesystem::path& pat
 
 const Token& TokenStream::peek() {
   while (!peeked_) {
-    Token token = open_.back().lexer.next();
-    token.source = open_.back().origin;
+    Open& top = open_.back();
+    Token token = top.lexer.next();
+    token.source = top.origin;
+    if (top.variable) {
+      token.line = top.variable->line;
+      token.column = top.variable->column;
+    }
     if (token.kind == Token::Kind::Comment) {
       comments_.push_back({std::string(token.raw), taken_ + 1});
     } else if (token.kind == Token::Kind::End && open_.size() > 1) {
       open_.pop_back();
     } else if (token.kind == Token::Kind::Unclosed && open_.size() > 1 && !skipping_) {
       dropRestOfFile(token);
+    } else if (token.kind == Token::Kind::Word && token.raw.front() == '$' && !skipping_) {
+      pushValue(token);
     } else {
+      if (token.kind == Token::Kind::String && !skipping_) expand(token);
       peeked_ = token;
     }
   }
   return *peeked_;
+}
+
+void TokenStream::pushValue(const Token& variable) {
+  const std::string_view name = variable.raw.substr(1);
+  if (!Variables::isName(name)) {
+    throw SceneError(locate(variable), "found " + shown(variable.raw) +
+                                           ", expected $ and the name of a variable: letters, digits and _");
+  }
+  const std::string* const value = variables_.find(name);
+  if (!value) {
+    std::string message = "no variable \"" + shown(name) + '"';
+    message += suggestion(name, variables_.names());
+    message += "; give it a value: --define " + shown(name) + "=VALUE, or Define \"";
+    throw SceneError(locate(variable), message + shown(name) + "\" VALUE above");
+  }
+  addToHash(nullptr, *value);
+  const std::uint32_t origin = variable.source;
+  open_.push_back({std::nullopt, Lexer(*value, 0, false), origin, {}, locate(variable), 0, variable});
+}
+
+void TokenStream::expand(Token& string) {
+  if (string.raw.find('$') == string.raw.npos && string.raw.find('#') == string.raw.npos) return;
+  try {
+    std::optional<std::string> text = variables_.expanded(string.raw);
+    if (!text) return;
+    addToHash(nullptr, *text);
+    expanded_ = *std::move(text);
+    string.raw = expanded_;
+  } catch (const std::invalid_argument& e) {
+    throw SceneError(locate(string), e.what());
+  }
 }
 
 Token TokenStream::take() {
@@ -132,6 +172,7 @@ std::optional<SceneError> TokenStream::missingQuote(const Token& token) const {
   const auto in =
       std::find_if(open_.begin(), open_.end(), [&](const Open& o) { return o.origin == token.source; });
   if (in == open_.end() || token.kind == Token::Kind::End) return std::nullopt;
+  if (!in->lexer.holds(token.raw.data())) return std::nullopt;  // it came out of a variable
   const std::string_view line = in->lexer.lineAround(token.raw.data(), MissingQuote::kLongestLine);
   const auto missing = findMissingQuote(line);
   if (!missing) return std::nullopt;

@@ -12,17 +12,19 @@
 #include "base/files.h"
 #include "scene/input_folders.h"
 #include "scene/lexer.h"
+#include "scene/variables.h"
 
 namespace pbrtmedia {
 
 /// The tokens of a file with those of included files in place. The end of an included file is not seen:
 /// reading goes on in the includer, and so it does, tolerated, at a string of it that is not closed
-/// (reference 1). A token's text is valid until the next token is peeked or taken.
+/// (reference 1). Values stand where variables were, at the places of these. A token's text is valid until
+/// the next token is peeked or taken.
 class TokenStream {
  public:
   /// `diagnostics` must outlive the stream.
-  explicit TokenStream(Diagnostics& diagnostics, bool keepComments = false)
-      : diagnostics_(diagnostics), keepComments_(keepComments) {}
+  explicit TokenStream(Diagnostics& diagnostics, Variables variables, bool keepComments = false)
+      : diagnostics_(diagnostics), variables_(std::move(variables)), keepComments_(keepComments) {}
 
   /// Reads on in a file; "-" is standard input. Without `includedAt` it takes the place of the one before.
   /// Throws SceneError when it cannot be read or is no text.
@@ -31,6 +33,7 @@ class TokenStream {
   /// Reads on in a text that outlives the stream.
   void pushText(std::string_view text, std::string_view shownName, InputFolders folders);
 
+  /// Throws SceneError at a variable without a value.
   const Token& peek();
   Token take();
   SourceLocation locate(const Token& token) const;
@@ -53,6 +56,7 @@ class TokenStream {
   /// Hash of every text pushed so far, in order.
   std::uint64_t textHash() const { return textHash_; }
 
+  Variables& variables() { return variables_; }
   std::size_t openFiles() const { return open_.size(); }
   /// "a.pbrt:3:1 -> b.pbrt:1:1" when `path` is being read now, which a further Include would do without end.
   std::optional<std::string> cycleTo(const std::filesystem::path& path) const;
@@ -78,9 +82,14 @@ class TokenStream {
     std::filesystem::path canonical;  ///< empty: not a file
     SourceLocation includedAt;
     std::size_t released = 0;
+    std::optional<Token> variable{};  ///< whose value the text is
   };
   void push(std::optional<FileBytes> file, std::string_view text, std::string_view shownName,
             InputFolders folders, std::filesystem::path canonical, const SourceLocation& includedAt);
+  /// Reads on in the value of the variable that the token names.
+  void pushValue(const Token& variable);
+  /// The string with the values of the variables in it.
+  void expand(Token& string);
   void releaseConsumed();
   SceneError unclosed(const Token& token) const;
   /// Goes back to the includer, as there is an unclosed string in the included file, and says so.
@@ -88,6 +97,8 @@ class TokenStream {
   void addToHash(const FileBytes* file, std::string_view text);
 
   Diagnostics& diagnostics_;
+  Variables variables_;
+  std::string expanded_;  ///< text of the token that was expanded last
   std::vector<Open> open_;
   std::vector<Origin> origins_;
   std::optional<Token> peeked_;

@@ -7,7 +7,7 @@
 
 namespace pbrtmedia {
 
-/// Frames to convert: first, first + step, … up to last.
+/// Frames of a sequence: first, first + step, … up to last.
 struct FrameRange {
   int first = 0, last = 0, step = 1;
 };

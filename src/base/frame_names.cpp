@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "vdb2pbrt/frame_names.h"
+#include "base/frame_names.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// --define and --frames as a user meets them.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "base/stopwatch.h"
+#include "support/background_program.h"
+#include "support/process.h"
+#include "support/temporary_folder.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+class Frames : public testing::Test {
+ protected:
+  /// A sphere of fog at a distance.
+  void write(const std::string& filename, const std::string& distance = "$distance",
+             const std::string& samples = "2") const {
+    std::ofstream(folder_.path() / "s.pbrt")
+        << "Define \"tau\" 1\nDefine \"radius\" 1\n"
+        << "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8 \"string filename\" \""
+        << filename << "\"\nSampler \"random\" \"integer pixelsamples\" " << samples
+        << "\nIntegrator \"volpath\"\nCamera \"perspective\"\nWorldBegin\nTranslate 0 0 " << distance
+        << "\n"
+           "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ $tau $tau $tau ]\n"
+           "LightSource \"infinite\"\nMediumInterface \"m\" \"\"\nMaterial \"\"\n"
+           "Shape \"sphere\" \"float radius\" $radius\nWorldEnd\n";
+  }
+  ProcessResult pbrt(const std::string& arguments) const {
+    return run("cd '" + folder_.path().string() + "' && timeout -s KILL 60 '" PBRT_PROGRAM "' " + arguments);
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(folder_.path() / name); }
+  void expectFails(const std::string& arguments, const std::string& part) const {
+    const ProcessResult r = pbrt(arguments);
+    EXPECT_EQ(r.status, 1) << arguments;
+    EXPECT_NE(r.output.find(part), std::string::npos) << r.output;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Frames, AreTheRendersOfTheirNumbers) {
+  write("a-####.pfm", "$frame");
+  const ProcessResult all = pbrt("--frames 3:8:2 --stats s-##.json --define tau=2 s.pbrt --quiet");
+  ASSERT_EQ(all.status, 0) << all.output;
+  for (const int frame : {3, 5, 7}) {
+    const std::string number = std::to_string(frame), image = "a-000" + number + ".pfm";
+    ASSERT_TRUE(exists(image));
+    EXPECT_TRUE(exists("s-0" + number + ".json"));
+    ASSERT_EQ(pbrt("--define frame=" + number + " --define tau=2 --outfile one.pfm s.pbrt --quiet").status,
+              0);
+    EXPECT_TRUE(folder_.read(image) == folder_.read("one.pfm")) << frame;
+  }
+  EXPECT_TRUE(folder_.read("a-0003.pfm") != folder_.read("a-0005.pfm"));
+  EXPECT_FALSE(exists("a-0004.pfm"));
+  EXPECT_FALSE(exists("a-0009.pfm"));
+}
+
+TEST_F(Frames, AreNotWrittenOverEachOther) {
+  write("a.pfm");
+  const std::string defined = " --define distance=4 --quiet s.pbrt";
+  expectFails("--frames 1:2" + defined, "every frame would write the image \"a.pfm\"; write \"a-####.pfm\"");
+  expectFails("--frames 1:2 --outfile b.pfm" + defined, "every frame would write --outfile \"b.pfm\"");
+  for (const std::string option : {"--stats", "--convergence", "--checkpoint", "--bounds-cache"}) {
+    expectFails("--frames 1:2 --outfile b-##.pfm " + option + " f" + defined, option + " \"f\"");
+  }
+  EXPECT_FALSE(exists("a.pfm"));
+  EXPECT_EQ(pbrt("--frames 5" + defined).status, 0);
+  EXPECT_TRUE(exists("a.pfm")) << "one frame needs no number";
+  write("a-${frame}.pfm");
+  EXPECT_EQ(pbrt("--frames 1:2" + defined).status, 0);
+  EXPECT_TRUE(exists("a-1.pfm") && exists("a-2.pfm"));
+}
+
+TEST_F(Frames, EndWhereASignalCame) {
+  write("a-####.pfm", "4", "100000000");
+  BackgroundProgram program({PBRT_PROGRAM, "--frames", "1:3", "--progress", "plain", "s.pbrt"},
+                            folder_.path(), folder_.path() / "output.txt");
+  const Stopwatch waiting;
+  while (program.output().find(" samples") == std::string::npos && waiting.seconds() < 30) {
+    ASSERT_FALSE(program.isOver()) << program.output();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(program.end(SIGINT), 0) << program.output();
+  EXPECT_TRUE(exists("a-0001.pfm")) << program.output();
+  EXPECT_FALSE(exists("a-0002.pfm")) << program.output();
+}
+
+TEST_F(Frames, MistakesOfTheCommandLine) {
+  write("a-####.pfm");
+  for (const std::string wrong : {"2:1", "a", "1:2:0", "-1:3", "1:", "1:2:3:4", "1:2000000000000", ""}) {
+    expectFails("--frames '" + wrong + "' s.pbrt", "--frames");
+  }
+  for (const std::string wrong : {"x", "=1", "1x=2", "a-b=3"}) {
+    expectFails("--define '" + wrong + "' s.pbrt", "--define: found " + wrong + ", expected NAME=VALUE");
+  }
+  expectFails("--define distance=4 --define raduis=2 s.pbrt", "did you mean \"radius\"?");
+  expectFails("--frames 1:2 - < s.pbrt", "standard input can be read once only");
+  EXPECT_EQ(pbrt("--frames 1:2 --cat --define distance=4 s.pbrt").status, 0);
+}
+
+}  // namespace
+}  // namespace pbrtmedia::test
