@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "base/frame_names.h"
 #include "tools/run_tool.h"
 #include "vdb2pbrt/conversion.h"
 #include "vdb2pbrt/crash_guard.h"
 #include "vdb2pbrt/describe_volume.h"
-#include "base/frame_names.h"
 #include "vdb2pbrt/progress_line.h"
 #include "vdb2pbrt/sequence.h"
 
