@@ -3,6 +3,7 @@
 #include "construct/world_builder.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "construct/probe.h"
 
@@ -86,6 +87,32 @@ TEST(ConstructWorld, StrandsThatStandAlikeAreOneShape) {
   EXPECT_EQ(primitiveCount(with(curve(0) + curve(1, "\"string type\" \"cylinder\" "))), 2u);
   EXPECT_EQ(primitiveCount(with(curve(0) + curve(1, "\"rgb Kd\" [ 1 0 0 ] "))), 2u);
   EXPECT_EQ(primitiveCount(with(object("o", curve(0) + curve(1)) + curve(2) + instance("o"))), 2u);
+}
+
+TEST(ConstructWorld, InstancesAndMovingCurvesAreTheCurves) {
+  const std::string curve =
+      "Shape \"curve\" \"float width\" .5 \"point P\" [ -1 -.4 0 -.3 .2 .2 .3 -.2 0 1 .4 .1 ] ";
+  const std::string place = "Translate .1 .2 .1 Rotate 30 1 2 1 ";
+  const auto hits = [](const Attempt& a) {
+    Numbers n;
+    std::uint64_t queries = 0;
+    for (const Ray& ray : probingRays()) {
+      const auto hit = a.made->scene->closest(ray, 0, Exclusions{}, queries);
+      n.push_back(hit ? 1 : 0);
+      if (!hit) continue;
+      const SurfaceInteraction si = a.made->scene->surface(*hit, ray);
+      for (const double x : {si.p.x, si.n.x, si.n.y, si.n.z, si.uv.x, si.uv.y, si.dpdu.x, si.dpdv.y}) {
+        n.push_back(std::round(x * 1e3));
+      }
+    }
+    return n;
+  };
+  const Numbers straight = hits(with(place + curve));
+  EXPECT_GT(std::count(straight.begin(), straight.end(), 1), 20);
+  EXPECT_EQ(hits(with(object("o", curve) + place + instance("o"))), straight);
+  // Motion from there to elsewhere: at a quarter of the time it is a quarter of the way along.
+  const Attempt moving = with("ActiveTransform EndTime Translate 2 0 0 ActiveTransform All " + curve);
+  EXPECT_EQ(hits(moving), hits(with("Translate .5 0 0 " + curve)));
 }
 
 TEST(ConstructWorld, CurvesBoundNoMedia) {
