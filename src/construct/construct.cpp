@@ -179,6 +179,13 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
                             "\" does not render participating media, so the image shows this scene without "
                             "those it has, as in PBRT-v3; \"volpath\" renders them");
   }
+  if (!integrator->rendersSubsurface && materials.hasBssrdfs()) {
+    diagnostics.warning(
+        scene.integrator.given ? scene.integrator.location : scene.worldEnd,
+        "Integrator \"" + scene.integrator.type +
+            "\" does not render scattering below surfaces, so materials that have it are like "
+            "clear glass, as in PBRT-v3; \"path\" and \"volpath\" render it");
+  }
   made.report = world.report();
   return made;
 }

@@ -51,7 +51,7 @@ IntegratorPlan readPath(ParamReader& in, const ConstructOptions&) {
             const std::span lights = std::span(scene.illuminants()).first(scene.lights().size());
             return std::make_unique<PathIntegrator>(scene, p, selectorFor(lights, scene, p));
           },
-          false, std::nullopt};
+          false, std::nullopt, /*needsLights=*/true, /*rendersSubsurface=*/true};
 }
 
 IntegratorPlan readVolPath(ParamReader& in, const ConstructOptions&) {
@@ -66,7 +66,7 @@ IntegratorPlan readVolPath(ParamReader& in, const ConstructOptions&) {
             return std::make_unique<VolPathIntegrator>(scene, p, selectorFor(scene.illuminants(), scene, p),
                                                        std::move(cameraMedium));
           },
-          true, std::nullopt};
+          true, std::nullopt, /*needsLights=*/true, /*rendersSubsurface=*/true};
 }
 
 IntegratorPlan readDirectLighting(ParamReader& in, const ConstructOptions&) {

@@ -19,7 +19,8 @@ struct IntegratorPlan {
   std::function<std::unique_ptr<Integrator>(const Scene&, CameraMedium)> make;
   bool rendersMedia = false;
   std::optional<Bounds2i> pixelBounds{};
-  bool needsLights = true;  ///< without them the image is black
+  bool needsLights = true;         ///< without them the image is black
+  bool rendersSubsurface = false;  ///< asks for Material::bssrdf
 };
 
 /// Reads Integrator. Nothing for an unknown type.

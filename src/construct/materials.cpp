@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 
+#include "base/files.h"
+#include "construct/material_kinds.h"
 #include "construct/plugins.h"
 #include "construct/tolerance.h"
+#include "materials/fourier_table.h"
 #include "materials/glass.h"
 #include "materials/matte.h"
 #include "materials/metal.h"
@@ -13,6 +16,7 @@
 #include "materials/mix.h"
 #include "materials/plastic.h"
 #include "materials/substrate.h"
+#include "materials/subsurface_table.h"
 #include "materials/translucent.h"
 #include "materials/uber.h"
 
@@ -193,24 +197,36 @@ MixPart readMixPart(Texturable& in, std::string_view parameter) {
 Make readMix(Texturable& in) {
   const auto amount = in.findRgb("amount", Rgb(0.5f));
   const MixPart a = readMixPart(in, "namedmaterial1"), b = readMixPart(in, "namedmaterial2");
+  const SourceLocation at = in.own().entity().location;
+  const std::string context = in.own().context();
   return [=](Materials& m) -> std::unique_ptr<Material> {
     const Material* first = a.build(m);
     const Material* second = b.build(m);
     if (first == nullptr || second == nullptr)
       throw std::invalid_argument("cannot mix with a material of type \"none\"");
+    if (second->hasBssrdf() && !first->hasBssrdf()) {
+      m.diagnostics().warning(at, context +
+                                      ": nothing scatters below the surface of \"namedmaterial2\", which is "
+                                      "like clear glass, as in PBRT-v3; as \"namedmaterial1\", it does");
+    }
     return std::make_unique<MixMaterial>(*first, *second, *m.textures().rgbTexture(amount));
   };
 }
 
-constexpr std::array<Plugin<ReadMaterial>, 9> kMaterials = {{{"matte", readMatte},
-                                                             {"plastic", readPlastic},
-                                                             {"glass", readGlass},
-                                                             {"mirror", readMirror},
-                                                             {"metal", readMetal},
-                                                             {"uber", readUber},
-                                                             {"substrate", readSubstrate},
-                                                             {"translucent", readTranslucent},
-                                                             {"mix", readMix}}};
+constexpr std::array<Plugin<ReadMaterial>, 14> kMaterials = {{{"matte", readMatte},
+                                                              {"plastic", readPlastic},
+                                                              {"glass", readGlass},
+                                                              {"mirror", readMirror},
+                                                              {"metal", readMetal},
+                                                              {"uber", readUber},
+                                                              {"substrate", readSubstrate},
+                                                              {"translucent", readTranslucent},
+                                                              {"mix", readMix},
+                                                              {"disney", readDisney},
+                                                              {"subsurface", readSubsurface},
+                                                              {"kdsubsurface", readKdSubsurface},
+                                                              {"hair", readHair},
+                                                              {"fourier", readFourier}}};
 
 std::string contextOf(const MaterialDescription& d) {
   return d.name.empty() ? "Material \"" + d.type + "\"" : "material \"" + d.name + "\"";
@@ -219,7 +235,11 @@ std::string contextOf(const MaterialDescription& d) {
 }  // namespace
 
 Materials::Materials(SceneDescription& scene, Textures& textures, Diagnostics& diagnostics)
-    : scene_(scene), textures_(textures), plans_(scene.materials.size()), shared_(scene.materials.size()) {
+    : scene_(scene),
+      textures_(textures),
+      diagnostics_(diagnostics),
+      plans_(scene.materials.size()),
+      shared_(scene.materials.size()) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     MaterialDescription& d = scene.materials[i];
     const std::string context = contextOf(d);
@@ -277,6 +297,7 @@ Materials::Use Materials::readForShape(const ShapeDescription& shape, ParamReade
 }
 
 const Material* Materials::keep(std::unique_ptr<Material> material) {
+  hasBssrdfs_ = hasBssrdfs_ || material->hasBssrdf();
   built_.push_back(std::move(material));
   return built_.back().get();
 }
@@ -303,6 +324,21 @@ const Material* Materials::buildShared(std::int32_t index) {
     --nesting_;
   }
   return shared_[i];
+}
+
+std::shared_ptr<const SubsurfaceTable> Materials::subsurfaceTable(float g, float eta) {
+  auto& table = subsurfaceTables_[{g, eta}];
+  if (!table) table = std::make_shared<const SubsurfaceTable>(g, eta);
+  return table;
+}
+
+std::shared_ptr<const FourierTable> Materials::fourierTable(const std::filesystem::path& file) {
+  auto& table = fourierTables_[file];
+  if (!table) {
+    table = std::make_shared<const FourierTable>(
+        FourierTable::parse(FileBytes::open(file).text(), file.string()));
+  }
+  return table;
 }
 
 std::size_t Materials::builtCount() const {

@@ -77,6 +77,8 @@ std::optional<TextureUse<float>> Texturable::optionalFloat(std::string_view name
   return find<float>(name, range);
 }
 
+std::optional<TextureUse<Rgb>> Texturable::optionalRgb(std::string_view name) { return find<Rgb>(name, {}); }
+
 template <class T>
 TextureUse<T> Texturable::findOr(std::string_view name, T fallback, Range range) {
   auto use = find<T>(name, range).value_or(TextureUse<T>{TextureUse<T>::kConstant, fallback});
@@ -110,6 +112,15 @@ std::optional<std::string> Texturable::optionalString(std::string_view name) {
     }
   }
   return own_.optionalString(name);
+}
+
+std::optional<std::filesystem::path> Texturable::findInputFile(std::string_view name,
+                                                               std::string_view consequence) {
+  if (shape_ != nullptr && shape_->has(ParamKind::String, name)) {
+    shapeOverrides_ = true;
+    return shape_->findInputFile(name, consequence);
+  }
+  return own_.findInputFile(name, consequence);
 }
 
 }  // namespace pbrtmedia

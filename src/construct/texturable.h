@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -37,8 +38,11 @@ class Texturable {
   TextureUse<float> findFloat(std::string_view name, float fallback, Range range = {});
   TextureUse<Rgb> findRgb(std::string_view name, Rgb fallback);
   std::optional<TextureUse<float>> optionalFloat(std::string_view name, Range range = {});
+  std::optional<TextureUse<Rgb>> optionalRgb(std::string_view name);
   bool findBool(std::string_view name, bool fallback);
   std::optional<std::string> optionalString(std::string_view name);
+  /// ParamReader::findInputFile.
+  std::optional<std::filesystem::path> findInputFile(std::string_view name, std::string_view consequence);
 
   /// A parameter of the shape was used: the material is of this shape alone.
   bool shapeOverrides() const { return shapeOverrides_; }

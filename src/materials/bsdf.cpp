@@ -54,7 +54,8 @@ Rgb Bsdf::f(Vector3f woWorld, Vector3f wiWorld, BsdfFlags allowed) const {
   Rgb sum;
   for (std::size_t i = 0; i < count_; ++i) {
     const BsdfFlags flags = lobes_[i].flags();
-    if (matches(flags, allowed) && any(flags & side)) sum += lobes_[i].f(wo, wi);
+    if (matches(flags, allowed) && any(flags & side) && !any(flags & BsdfFlags::Specular))
+      sum += lobes_[i].f(wo, wi);
   }
   if (mode_ == TransportMode::Importance) sum *= shadingCorrection(woWorld, wiWorld);
   return sum;
@@ -67,7 +68,7 @@ float Bsdf::pdf(Vector3f woWorld, Vector3f wiWorld, BsdfFlags allowed) const {
   std::size_t n = 0;
   for (std::size_t i = 0; i < count_; ++i) {
     if (!matches(lobes_[i].flags(), allowed)) continue;
-    sum += lobes_[i].pdf(wo, wi);
+    if (!any(lobes_[i].flags() & BsdfFlags::Specular)) sum += lobes_[i].pdf(wo, wi);
     ++n;
   }
   return n > 0 ? sum / static_cast<float>(n) : 0;
@@ -89,12 +90,16 @@ BsdfSample Bsdf::sample(Vector3f woWorld, Point2f u, BsdfFlags allowed) const {
   const LobeSample s = lobes_[picked].sample(wo, reused);
   if (!(s.pdf > 0)) return {};
   BsdfSample result{s.f, frame_.toWorld(s.wi), s.pdf, s.flags};
-  if (!any(s.flags & BsdfFlags::Specular)) {
+  if (any(s.flags & BsdfFlags::Transmission)) {
+    constexpr BsdfFlags kMarks = BsdfFlags::Subsurface | BsdfFlags::Specular;
+    result.flags = result.flags | (lobes_[picked].flags() & kMarks);
+  }
+  if (!any(result.flags & BsdfFlags::Specular)) {
     const BsdfFlags side = sideOf(dot(result.wi, ng_) * dot(woWorld, ng_) > 0);
     result.f = {};
     for (std::size_t i = 0; i < count_; ++i) {
       const Lobe& lobe = lobes_[i];
-      if (!matches(lobe.flags(), allowed)) continue;
+      if (!matches(lobe.flags(), allowed) || any(lobe.flags() & BsdfFlags::Specular)) continue;
       if (i != picked) result.pdf += lobe.pdf(wo, s.wi);
       if (any(lobe.flags() & side)) result.f += i == picked ? s.f : lobe.f(wo, s.wi);
     }
@@ -102,6 +107,16 @@ BsdfSample Bsdf::sample(Vector3f woWorld, Point2f u, BsdfFlags allowed) const {
   result.pdf /= static_cast<float>(matching);
   if (mode_ == TransportMode::Importance) result.f *= shadingCorrection(woWorld, result.wi);
   return result;
+}
+
+void Bsdf::separateSubsurface() {
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (any(lobes_[i].flags() & BsdfFlags::Subsurface)) lobes_[i].setFlag(BsdfFlags::Specular);
+  }
+}
+
+void Bsdf::forgetSubsurface() {
+  for (std::size_t i = 0; i < count_; ++i) lobes_[i].clearFlag(BsdfFlags::Subsurface);
 }
 
 void Bsdf::scale(Rgb weight) {

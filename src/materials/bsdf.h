@@ -48,6 +48,12 @@ class Bsdf {
   /// Picks a matching lobe uniformly with u.x (stretched for reuse), then a direction.
   BsdfSample sample(Vector3f wo, Point2f u, BsdfFlags allowed = BsdfFlags::All) const;
 
+  /// Makes lobes marked Subsurface events, as specular ones are: they can be sampled, and have a part in
+  /// neither f nor the density of directions. For who asks for Material::bssrdf.
+  void separateSubsurface();
+  /// What the lobes let through is not scattered below the surface.
+  void forgetSubsurface();
+
   /// Lobes and frame, for the mix material.
   std::size_t lobeCount() const { return count_; }
   const Lobe& lobe(std::size_t i) const { return lobes_[i]; }

@@ -14,6 +14,9 @@ enum class BsdfFlags : std::uint8_t {
   Diffuse = 4,
   Glossy = 8,
   Specular = 16,
+  /// Of a transmission, beside the others: what it lets through is scattered below the surface
+  /// (Material::bssrdf). Has no part in matching.
+  Subsurface = 32,
   All = 31,
   AllButSpecular = 15
 };
@@ -23,8 +26,13 @@ constexpr BsdfFlags operator|(BsdfFlags a, BsdfFlags b) {
 constexpr BsdfFlags operator&(BsdfFlags a, BsdfFlags b) {
   return static_cast<BsdfFlags>(static_cast<std::uint8_t>(a) & static_cast<std::uint8_t>(b));
 }
+constexpr BsdfFlags without(BsdfFlags a, BsdfFlags b) {
+  return static_cast<BsdfFlags>(static_cast<std::uint8_t>(a) & ~static_cast<std::uint8_t>(b));
+}
 constexpr bool any(BsdfFlags f) { return f != BsdfFlags::None; }
-/// True when all bits of the lobe are among `allowed`: PBRT's matching rule.
-constexpr bool matches(BsdfFlags lobe, BsdfFlags allowed) { return (lobe & allowed) == lobe; }
+/// True when all bits of the lobe but Subsurface are among `allowed`: PBRT's matching rule.
+constexpr bool matches(BsdfFlags lobe, BsdfFlags allowed) {
+  return (lobe & (allowed | BsdfFlags::Subsurface)) == lobe;
+}
 
 }  // namespace pbrtmedia

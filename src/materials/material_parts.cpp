@@ -17,4 +17,25 @@ bool isAlwaysBlack(const RgbTexture& texture) {
   return constant != nullptr && reflectanceAt(*constant, SurfaceInteraction{}).isBlack();
 }
 
+void addDielectric(Bsdf& bsdf, const Dielectric& of, TransportMode mode, bool mergeSpecular,
+                   BsdfFlags marks) {
+  const auto& [kr, kt, eta, u, v, remap] = of;
+  if (kr.isBlack() && kt.isBlack()) return;
+  const auto transmit = [&](Lobe lobe) {
+    lobe.setFlag(marks);
+    bsdf.add(lobe);
+  };
+  const DielectricFresnel fresnel{1, eta};
+  // Facets of a boundary between equal indices bend nothing, however rough: the limit is the smooth case.
+  if ((u == 0 && v == 0) || eta == 1) {
+    if (mergeSpecular) return transmit(Lobe(Rgb(1), FresnelSpecular{kr, kt, 1, eta, mode}));
+    if (!kr.isBlack()) bsdf.add(Lobe(kr, SpecularReflection{fresnel}));
+    if (!kt.isBlack()) transmit(Lobe(kt, SpecularTransmission{1, eta, mode}));
+    return;
+  }
+  const TrowbridgeReitz distribution = distributionAt(u, v, remap);
+  if (!kr.isBlack()) bsdf.add(Lobe(kr, MicrofacetReflection{distribution, fresnel}));
+  if (!kt.isBlack()) transmit(Lobe(kt, MicrofacetTransmission{distribution, 1, eta, mode}));
+}
+
 }  // namespace pbrtmedia

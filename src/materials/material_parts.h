@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "materials/bsdf.h"
 #include "materials/microfacet.h"
 #include "textures/texture.h"
 
@@ -26,5 +27,18 @@ inline TrowbridgeReitz distributionAt(float uRoughness, float vRoughness, bool r
   const float alphaU = TrowbridgeReitz::alphaFromRoughness(uRoughness);
   return {alphaU, vRoughness == uRoughness ? alphaU : TrowbridgeReitz::alphaFromRoughness(vRoughness)};
 }
+
+/// A boundary between vacuum and a dielectric.
+struct Dielectric {
+  Rgb kr, kt;
+  float eta;  ///< index behind the normal
+  float uRoughness, vRoughness;
+  bool remapRoughness;
+};
+
+/// Adds the lobes of such a boundary: smooth where both roughnesses are 0, then one lobe if `mergeSpecular`.
+/// `marks`: flags that what transmits gets.
+void addDielectric(Bsdf& bsdf, const Dielectric& of, TransportMode mode, bool mergeSpecular,
+                   BsdfFlags marks = BsdfFlags::None);
 
 }  // namespace pbrtmedia

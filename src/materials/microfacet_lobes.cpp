@@ -61,7 +61,9 @@ Rgb MicrofacetTransmission::f(Vector3f wo, Vector3f wi) const {
   if (!facet) return {};
   const float transmitted = 1 - fresnelDielectric(facet->oDotH, etaA, etaB);
   // Eq. (21) of Walter et al., both parts divided by the square of the index on wo's side.
-  const Rgb radiance(transmitted * distribution.density(facet->h) * distribution.maskingShadowing(wo, wi) *
+  const float seen = isMaskingSeparable ? distribution.masking(wo) * distribution.masking(wi)
+                                        : distribution.maskingShadowing(wo, wi);
+  const Rgb radiance(transmitted * distribution.density(facet->h) * seen *
                      std::abs(facet->oDotH * facet->iDotH / (wo.z * wi.z)) / facet->sum2);
   return mode == TransportMode::Radiance ? radiance : radiance * sqr(facet->eta);
 }

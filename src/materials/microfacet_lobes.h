@@ -29,6 +29,7 @@ struct MicrofacetTransmission {
   TrowbridgeReitz distribution;
   float etaA = 1, etaB = 1.5f;  ///< indices on the normal's side and the other; must differ
   TransportMode mode = TransportMode::Radiance;
+  bool isMaskingSeparable = false;  ///< G1(wo) G1(wi), as Disney's material has it
 
   Rgb f(Vector3f wo, Vector3f wi) const;
   float pdf(Vector3f wo, Vector3f wi) const;

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "materials/bssrdf.h"
+
 namespace pbrtmedia {
 
 MixMaterial::MixMaterial(const Material& material1, const Material& material2, const RgbTexture& amount)
@@ -23,8 +25,13 @@ Bsdf MixMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpe
   if (weight2.isBlack()) return bsdf;
   Bsdf second = material2_->bsdf(other, mode, mergeSpecular);
   second.scale(weight2);
+  second.forgetSubsurface();
   for (std::size_t i = 0; i < second.lobeCount(); ++i) bsdf.add(second.lobe(i));
   return bsdf;
+}
+
+std::optional<Bssrdf> MixMaterial::bssrdf(const SurfaceInteraction& si) const {
+  return material1_->bssrdf(si);
 }
 
 }  // namespace pbrtmedia

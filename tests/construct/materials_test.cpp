@@ -24,7 +24,7 @@ struct Parameters {
   std::string type;
   std::vector<std::pair<std::string, std::string>> base;  ///< given throughout, but for the one in question
   std::vector<std::string> spectra, floats;
-  bool remaps = false;
+  bool remaps = false, bumps = true;
 
   std::string with(const std::string& name, const std::string& parameter) const {
     std::string text;
@@ -50,7 +50,88 @@ const std::vector<Parameters> kAll = {
      {{"Kr", "\"rgb Kr\" [ .2 .2 .2 ]"}, {"Kt", "\"rgb Kt\" [ .1 .1 .1 ]"}},
      {"Kd", "Ks", "Kr", "Kt", "opacity"},
      {"roughness", "uroughness", "vroughness", "eta", "index"},
-     true}};
+     true},
+    {"disney",
+     {{"spectrans", "\"float spectrans\" 0.2"},
+      {"metallic", "\"float metallic\" 0.2"},
+      {"sheen", "\"float sheen\" 0.2"},
+      {"clearcoat", "\"float clearcoat\" 0.2"},
+      {"color", "\"rgb color\" [ .6 .4 .2 ]"}},
+     {"color", "scatterdistance"},
+     {"metallic", "eta", "roughness", "speculartint", "anisotropic", "sheen", "sheentint", "clearcoat",
+      "clearcoatgloss", "spectrans"},
+     false},
+    {"disney",
+     {{"thin", "\"bool thin\" \"true\""}, {"spectrans", "\"float spectrans\" 0.2"}},
+     {"color"},
+     {"flatness", "difftrans", "roughness", "eta"},
+     false},
+    {"subsurface",
+     {{"uroughness", "\"float uroughness\" 0.15"}, {"vroughness", "\"float vroughness\" 0.15"}},
+     {"sigma_a", "sigma_s", "Kr", "Kt"},
+     {"uroughness", "vroughness"},
+     true},
+    {"kdsubsurface",
+     {{"uroughness", "\"float uroughness\" 0.15"}, {"vroughness", "\"float vroughness\" 0.15"}},
+     {"Kd", "mfp", "Kr", "Kt"},
+     {"uroughness", "vroughness"},
+     true},
+    {"hair", {}, {"sigma_a", "color"}, {"eumelanin", "pheomelanin", "eta"}, false, false},
+    {"hair",
+     {{"beta_m", "\"float beta_m\" 0.5"}, {"beta_n", "\"float beta_n\" 0.5"}},
+     {},
+     {"beta_m", "beta_n", "alpha"},
+     false,
+     false}};
+
+/// What can be no texture.
+TEST(ConstructMaterial, SubsurfaceNumbersHaveTheirEffect) {
+  for (const std::string type : {"subsurface", "kdsubsurface"}) {
+    for (const std::string name : {"scale", "g", "eta"}) {
+      const std::string base = "Material \"" + type + "\" ", given = "\"float " + name + "\" 0.7 ";
+      expectEffects({{base + kShape, base + given + kShape}, {base + kShape, base + kShape + ' ' + given}},
+                    with, values);
+    }
+  }
+  const std::string named = "Material \"subsurface\" \"string name\" \"Ketchup\" ";
+  expectSame({{named + kShape,
+               "Material \"subsurface\" \"rgb sigma_a\" [ .061 .97 1.45 ] \"rgb sigma_s\" [ .18 "
+               ".07 .03 ]" +
+                   kShape},
+              {named + "\"float g\" 0.5" + kShape, named + kShape}},
+             with, values);
+}
+
+TEST(ConstructMaterial, HairTakesOneSourceOfItsColour) {
+  expectSame({{"Material \"hair\"" + kShape, "Material \"hair\" \"float eumelanin\" 1.3" + kShape}}, with,
+             values);
+  const Attempt a = with("Material \"hair\" \"rgb color\" [ .3 .2 .1 ] \"float eumelanin\" 1" + kShape);
+  EXPECT_TRUE(a.warns("parameter \"eumelanin\" has no effect beside \"color\"")) << a.messages();
+  EXPECT_EQ(values(a), values(with("Material \"hair\" \"rgb color\" [ .3 .2 .1 ]" + kShape)));
+}
+
+TEST(ConstructMaterial, AFourierMaterialWithoutItsTableIsBlack) {
+  const Numbers black = values(with("Material \"matte\" \"rgb Kd\" [ 0 0 0 ]" + kShape));
+  const Attempt none = with("Material \"fourier\"" + kShape);
+  EXPECT_TRUE(none.warns("parameter \"bsdffile\" is missing; the surface is black")) << none.messages();
+  EXPECT_EQ(values(none), black);
+  const Attempt missing = with("Material \"fourier\" \"string bsdffile\" \"none.bsdf\"" + kShape);
+  EXPECT_TRUE(missing.warns("the surface is black, as in PBRT-v3")) << missing.messages();
+  EXPECT_EQ(values(missing), black);
+}
+
+TEST(ConstructMaterial, SaysWhatScatteringBelowSurfacesNeeds) {
+  const std::string subsurface = "Material \"subsurface\" ";
+  const Attempt a = attemptWorld(subsurface + kShape);
+  EXPECT_FALSE(a.warns("scattering below surfaces")) << a.messages();
+  const std::string mix =
+      "MakeNamedMaterial \"a\" \"string type\" \"matte\" MakeNamedMaterial \"b\" \"string type\" "
+      "\"subsurface\" Material \"mix\" ";
+  EXPECT_TRUE(attemptWorld(mix + "\"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\"" + kShape)
+                  .warns("nothing scatters below the surface of \"namedmaterial2\""));
+  EXPECT_FALSE(attemptWorld(mix + "\"string namedmaterial1\" \"b\" \"string namedmaterial2\" \"a\"" + kShape)
+                   .warns("nothing scatters"));
+}
 
 TEST(ConstructMaterial, EveryParameterHasItsEffectAsConstantTextureAndOnTheShape) {
   for (const Parameters& m : kAll) {
@@ -69,7 +150,7 @@ TEST(ConstructMaterial, EveryParameterHasItsEffectAsConstantTextureAndOnTheShape
       both(name, "\"texture " + name + "\" \"f\"");
     }
     if (m.remaps) both("remaproughness", "\"bool remaproughness\" \"false\"");
-    both("bumpmap", "\"texture bumpmap\" \"bumps\"");
+    if (m.bumps) both("bumpmap", "\"texture bumpmap\" \"bumps\"");
     expectEffects(effects, with, values);
   }
 }
@@ -102,7 +183,7 @@ TEST(ConstructMaterial, SaysWhatIsWrongAndWhere) {
   expectMistakes(
       {{"Material \"mate\"", "Material: unknown type \"mate\"; did you mean \"matte\"?", "t.pbrt:2:10",
         kTolerated},
-       {"Material \"disney\"", "unknown type \"disney\"", "t.pbrt:2:10", kTolerated},
+       {"Material \"velvet\"", "unknown type \"velvet\"", "t.pbrt:2:10", kTolerated},
        {"MakeNamedMaterial \"n\" \"string type\" \"mate\"", "material \"n\": unknown type \"mate\"",
         "t.pbrt:2:37", kTolerated},
        {"Material \"matte\" \"float Kd\" 0.5", "parameter \"Kd\": found type float, expected ", "t.pbrt:2:18",
@@ -147,8 +228,8 @@ TEST(ConstructMaterial, AnUnknownTypeIsTheOnlyComplaint) {
 
 TEST(ConstructMaterial, MakesAMatteOfAnUnknownType) {
   const Attempt a =
-      attemptWorld("Material \"disney\" \"rgb Kd\" [ .1 .2 .3 ] \"rgb color\" [ 1 1 1 ]" + kShape);
-  ASSERT_TRUE(a.warns("unknown type \"disney\"")) << a.messages();
+      attemptWorld("Material \"velvet\" \"rgb Kd\" [ .1 .2 .3 ] \"rgb color\" [ 1 1 1 ]" + kShape);
+  ASSERT_TRUE(a.warns("unknown type \"velvet\"")) << a.messages();
   EXPECT_FALSE(a.warns("color")) << "nobody can tell what is right";
   EXPECT_EQ(values(a), values(with("Material \"matte\" \"rgb Kd\" [ .1 .2 .3 ]" + kShape)));
 }

@@ -5,6 +5,7 @@
 
 #include "construct/attempt.h"
 #include "lights/light.h"
+#include "materials/bssrdf.h"
 #include "materials/material.h"
 #include "media/medium.h"
 #include "media/phase/phase_function.h"
@@ -94,6 +95,11 @@ inline Numbers materials(const Attempt& a, float footprint = 0) {
       append(n, s.f);
       append(n, s.wi);
       n.push_back(s.pdf);
+    }
+    if (const auto bssrdf = hit->primitive->material->bssrdf(si)) {
+      n.push_back(bssrdf->eta());
+      append(n, bssrdf->radial(0.3f));
+      append(n, bssrdf->radial(0.02f));
     }
   }
   return n;

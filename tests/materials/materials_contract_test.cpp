@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "base/math.h"
+#include "materials/fourier.h"
+#include "materials/fourier_sample.h"
 #include "materials/material_test_support.h"
 #include "materials/matte.h"
 #include "materials/mix.h"
@@ -32,6 +34,9 @@ std::vector<MaterialCase> materialCases() {
   rough.vRoughness = &kFifth;
   UberParams uber = uberParams();
   uber.kr = uber.kt = uber.opacity = &kHalf;
+  DisneyParams disney = disneyParams(), thin = disneyParams(), subsurface = disneyParams();
+  thin.isThin = true;
+  subsurface.scatterDistance = &kReddish;
   return {{"Matte", std::make_shared<MatteMaterial>(MatteParams{.kd = &kReddish, .sigma = &kThirty})},
           {"Plastic", std::make_shared<PlasticMaterial>(plasticParams())},
           {"RoughGlass", std::make_shared<GlassMaterial>(rough)},
@@ -39,6 +44,15 @@ std::vector<MaterialCase> materialCases() {
           {"Substrate", std::make_shared<SubstrateMaterial>(substrateParams())},
           {"Translucent", std::make_shared<TranslucentMaterial>(translucentParams())},
           {"Uber", std::make_shared<UberMaterial>(uber)},
+          {"Disney", std::make_shared<DisneyMaterial>(disney)},
+          {"DisneyThin", std::make_shared<DisneyMaterial>(thin)},
+          {"DisneySubsurface", std::make_shared<DisneyMaterial>(subsurface)},
+          {"Subsurface", subsurfaceMaterial()},
+          {"Hair", std::make_shared<HairMaterial>(hairParams())},
+          {"Fourier", std::make_shared<FourierMaterial>(
+                          std::make_shared<FourierTable>(FourierTable::parse(
+                              FourierSample{.cosines = fourierCosines(8)}.bytes(), "t.bsdf")),
+                          nullptr)},
           {"Mix", std::make_shared<MixMaterial>(matte, translucent, kReddish)}};
 }
 

@@ -7,6 +7,7 @@
 #include "media/medium.h"
 #include "media/phase/phase_function.h"
 #include "world/hit_coordinates.h"
+#include "world/subsurface_probe.h"
 
 namespace pbrtmedia {
 namespace {
@@ -228,9 +229,10 @@ bool PathTracer::scatterOnSurface() {
   ++counters_.surfaceScatterings;
   samples_.startVertex(bounces_);
   SurfaceInteraction& si = surface_.si;
-  const Bsdf bsdf =
-      surface_.hit.primitive->material->bsdf(si, TransportMode::Radiance, /*mergeSpecular=*/true);
+  const Material& material = *surface_.hit.primitive->material;
+  Bsdf bsdf = material.bsdf(si, TransportMode::Radiance, /*mergeSpecular=*/true);
   if (layers_ && bounces_ == 0) tellSurface(bsdf);
+  if (material.hasBssrdf()) bsdf.separateSubsurface();
   ownsUniformLights_ = samplingCoversBsdf(bsdf, si);
   if (bsdf.count(BsdfFlags::AllButSpecular) > 0) lightSurface(bsdf);
 
@@ -238,6 +240,61 @@ bool PathTracer::scatterOnSurface() {
   if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
   beta_ *= sample.f * (absDot(sample.wi, bsdf.shadingNormal()) / sample.pdf);
   if (beta_.isBlack()) return false;
+  return any(sample.flags & BsdfFlags::Subsurface) ? scatterBelowSurface() : leaveSurface(bsdf, sample);
+}
+
+/// From where the path went below a surface to where it leaves it again: one scattering, as in PBRT-v3. The
+/// radiance scaling of going in undoes that of coming out, so roulette need not know of either.
+bool PathTracer::scatterBelowSurface() {
+  const Material& material = *surface_.hit.primitive->material;
+  const std::optional<Bssrdf> bssrdf = material.bssrdf(surface_.si);
+  if (!bssrdf) return false;
+  const float uWay = samples_.get1D();
+  const std::optional<SubsurfaceEmergence> out = sampleEmergence(
+      setup_.scene, *bssrdf, surface_.si, ray_.time, material, uWay, samples_.get2D(), counters_.rays);
+  if (!out) return false;
+  beta_ *= out->weight;
+  if (beta_.isBlack()) return false;
+  if (setup_.media && setup_.scene.hasMediumBoundaries()) followMediaBelow(out->hit, out->si);
+  surface_ = {out->hit, out->si, {}};
+  SurfaceInteraction& si = surface_.si;
+  si.wo = Vector3f(si.shading.n);
+  Bsdf bsdf(si, TransportMode::Radiance);
+  bsdf.add(Lobe(Rgb(1), RareLobe(SubsurfaceExit(bssrdf->eta(), /*isRadiance=*/true))));
+  ownsUniformLights_ = samplingCoversBsdf(bsdf, si);
+  lightSurface(bsdf);
+  const BsdfSample sample = bsdf.sample(si.wo, samples_.get2D());
+  if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
+  beta_ *= sample.f * (absDot(sample.wi, bsdf.shadingNormal()) / sample.pdf);
+  return leaveSurface(bsdf, sample);
+}
+
+/// What media are outside of the surface where the path leaves it, if it went below it at `surface_`: those
+/// of a straight way between the two.
+void PathTracer::followMediaBelow(const SceneHit& exit, const SurfaceInteraction& out) {
+  const SurfaceInteraction& in = surface_.si;
+  const MediaTopology& media = *setup_.media;
+  media.leaveSurface(state_, surface_.hit, in, surface_.coincident, -faceForward(in.n, in.wo), counters_,
+                     context_.mismatches);
+  const Vector3f way = out.p - in.p;
+  const float distance = length(way);
+  if (distance > 0) {
+    Ray ray;
+    ray.o = in.p;
+    ray.d = way / distance;
+    ray.tMax = distance;
+    ray.time = ray_.time;
+    Exclusions ends = surface_.coincident.startingWith(surface_.hit.hit.id);
+    ends.add(exit.hit.id, distance);
+    MediaWalk(walkContext(), state_, LineWalk(setup_.scene, ray, ends)).crossAll();
+  }
+  SurfaceInteraction fromBelow = out;
+  fromBelow.wo = -Vector3f(out.n);
+  media.leaveSurface(state_, exit, fromBelow, {}, Vector3f(out.n), counters_, context_.mismatches);
+}
+
+bool PathTracer::leaveSurface(const Bsdf& bsdf, const BsdfSample& sample) {
+  const SurfaceInteraction& si = surface_.si;
   isDirect_ = any(sample.flags & BsdfFlags::Specular);
   directionPdf_ = sample.pdf;
   if (isDirect_ && any(sample.flags & BsdfFlags::Transmission) &&

@@ -79,6 +79,9 @@ class PathTracer {
   void collectEmission(Way& way, const SceneHit& hit, const SurfaceInteraction& si);
   void collectBackground();
   bool scatterOnSurface();
+  bool scatterBelowSurface();
+  bool leaveSurface(const Bsdf& bsdf, const BsdfSample& sample);
+  void followMediaBelow(const SceneHit& exit, const SurfaceInteraction& out);
   bool scatterInMedium();
   void lightSurface(const Bsdf& bsdf);
   void lightMedium();

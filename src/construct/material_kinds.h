@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include "construct/materials.h"
+
+// Readers of material types that stand in files of their own.
+
+namespace pbrtmedia {
+
+Materials::Make readDisney(Texturable& in);
+Materials::Make readFourier(Texturable& in);
+Materials::Make readHair(Texturable& in);
+Materials::Make readKdSubsurface(Texturable& in);
+Materials::Make readSubsurface(Texturable& in);
+
+}  // namespace pbrtmedia
