@@ -15,7 +15,7 @@ import sys
 
 # Headers of these libraries stay behind these rooms.
 GUARDED = {"embree3/": {"accelerators"}, "OpenEXR/": {"image"}, "png.h": {"image"}, "CLI/": {"main", "tools"},
-           "nanovdb/": {"fields"}, "blosc.h": {"fields"}, "httplib.h": {"display"}}
+           "nanovdb/": {"fields"}, "blosc.h": {"fields"}, "httplib.h": {"display"}, "mpi.h": {"mpi"}}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 LICENCE = "// SPDX-License-Identifier: BSD-2-Clause\n"
 SOURCES = (".h", ".cpp")

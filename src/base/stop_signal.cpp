@@ -76,10 +76,10 @@ class StopSignal::Watch {
     while (::sem_trywait(&watchIsTold) == 0) {  // of an earlier watch
     }
     thread_ = std::thread([this, abandonsPaths] {
-      double end = deadline_;
-      bool isTold = waitUntil(end);
-      while (!isTold && end < deadline_) isTold = waitUntil(end = deadline_);
-      if (!isTold) request(StopCause::Time);
+      while (!done_ && !stopRequested) {
+        const double end = deadline_;
+        if (!waitUntil(end) && end >= deadline_) request(StopCause::Time);
+      }
       if (!abandonsPaths || done_) return;
       const double graceEnd = secondsNow() + kGrace;
       while (waitUntil(graceEnd) && !done_) {
@@ -93,6 +93,12 @@ class StopSignal::Watch {
     thread_.join();
   }
   void extend(double seconds) { deadline_ = deadline_ + seconds; }
+  void endAt(double deadline) {
+    const bool isEarlier = deadline < deadline_;
+    deadline_ = deadline;
+    if (isEarlier) ::sem_post(&watchIsTold);  // it waits for the old one
+  }
+  double deadline() const { return deadline_; }
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
@@ -147,6 +153,12 @@ const std::atomic<bool>& StopSignal::flag() const { return stopRequested; }
 void StopSignal::extend(double seconds) const {
   if (watch_) watch_->extend(seconds);
 }
+
+void StopSignal::endIn(double seconds) const {
+  if (watch_) watch_->endAt(secondsNow() + seconds);
+}
+
+double StopSignal::secondsLeft() const { return watch_ ? watch_->deadline() - secondsNow() : kNever; }
 
 void StopSignal::say(const char* notice) { stopNotice = notice; }
 

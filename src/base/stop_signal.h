@@ -37,6 +37,10 @@ class StopSignal {
   const std::atomic<bool>& flag() const;
   /// Lets the time end so many seconds later, for what was done meanwhile that is not to count.
   void extend(double seconds) const;
+  /// Lets the time end so many seconds from now instead.
+  void endIn(double seconds) const;
+  /// Until the time ends.
+  double secondsLeft() const;
   explicit operator bool() const { return flag(); }
   /// What the first signal from now on prints.
   static void say(const char* notice);

@@ -60,24 +60,53 @@ void LearnedBounds::probe(Vec3d local, float density, double depthPerDensity) co
   }
 }
 
-void LearnedBounds::publish() {
+LearnedBounds::Tally LearnedBounds::takeTally() {
+  Tally tally;
+  for (std::size_t i = 0; i < inForce_.storedCells(); ++i)
+    tally.cut += cut_[i].exchange(0, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < kProbeSlots; ++i) {
+    tally.depthFound += probes_[i].found.exchange(0, std::memory_order_relaxed);
+    tally.depthCut += probes_[i].cut.exchange(0, std::memory_order_relaxed);
+  }
+  return tally;
+}
+
+std::vector<float> LearnedBounds::proposals() const {
+  std::vector<float> numbers;
+  numbers.reserve(2 * inForce_.cellCount());
+  visitCells([&](std::size_t cell) {
+    numbers.push_back(most_[cell].load(std::memory_order_relaxed));
+    numbers.push_back(-least_[cell].load(std::memory_order_relaxed));
+  });
+  return numbers;
+}
+
+void LearnedBounds::addProposals(std::span<const float> proposals) {
+  CHECK_EQ(proposals.size(), 2 * inForce_.cellCount());
+  std::size_t next = 0;
+  visitCells([&](std::size_t cell) {
+    const float most = proposals[next], least = -proposals[next + 1];
+    next += 2;
+    if (most > most_[cell].load(std::memory_order_relaxed))
+      most_[cell].store(most, std::memory_order_relaxed);
+    if (least < least_[cell].load(std::memory_order_relaxed))
+      least_[cell].store(least, std::memory_order_relaxed);
+  });
+}
+
+void LearnedBounds::publish(const Tally& tally) {
   progress_.raised = progress_.visited = 0;
-  progress_.cut = 0;
   inForce_.update([&](std::size_t cell, const SuperVoxel& old) {
     const float upper = most_[cell].load(std::memory_order_relaxed);
     const float least = least_[cell].load(std::memory_order_relaxed);
     progress_.raised += upper > old.upper;
     progress_.visited += least < kUnseen;
-    progress_.cut += cut_[cell].exchange(0, std::memory_order_relaxed);
     const float lower = least < kUnseen ? std::max(0.0f, least - params_.epsilon) : 0.0f;
     return SuperVoxel{std::max(upper, old.upper), lower, SuperVoxel::kUnknownMean};
   });
-  double found = 0, cut = 0;
-  for (std::size_t i = 0; i < kProbeSlots; ++i) {
-    found += static_cast<double>(probes_[i].found.exchange(0, std::memory_order_relaxed));
-    cut += static_cast<double>(probes_[i].cut.exchange(0, std::memory_order_relaxed));
-  }
-  progress_.shortfall = found > 0 ? cut / found : 0;
+  progress_.cut = tally.cut;
+  const auto found = static_cast<double>(tally.depthFound);
+  progress_.shortfall = found > 0 ? static_cast<double>(tally.depthCut) / found : 0;
   progress_.maximum = inForce_.maximum();
   ++progress_.passes;
 }

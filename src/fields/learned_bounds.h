@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "fields/lattice_walk.h"
@@ -89,8 +90,22 @@ class LearnedBounds {
   bool isRestored() const { return isRestored_; }
   /// Nothing was published yet, or the last publication raised some bound.
   bool isExploring() const { return progress_.passes == 0 || progress_.raised > 0; }
+  /// What look-ups since the last publication came to, besides proposals; sums.
+  struct Tally {
+    std::uint64_t cut = 0;                       ///< LearningProgress::cut
+    std::uint64_t depthFound = 0, depthCut = 0;  ///< by probes, in units of their own
+  };
   /// Puts what was proposed into force. Not thread-safe.
-  void publish();
+  void publish() { publish(takeTally()); }
+  /// The same with the tally of all who took part, and whose proposals are here (addProposals).
+  void publish(const Tally& tally);
+  /// Counting starts anew. Not thread-safe.
+  Tally takeTally();
+  /// Proposals so far as numbers, the larger the more telling: what is proposed by several, each for a part
+  /// of the look-ups, is the largest of their numbers at each place.
+  std::vector<float> proposals() const;
+  /// Takes such numbers in. Not thread-safe.
+  void addProposals(std::span<const float> proposals);
   LearningProgress progress() const { return progress_; }
   std::size_t bytesOfProposals() const {
     return inForce_.storedCells() * (2 * sizeof(float) + sizeof(std::uint32_t)) +

@@ -8,6 +8,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "base/diagnostics.h"
@@ -104,7 +105,11 @@ void visitNeighbours(const SamplePass& pass, const FilterTable& filter, int inde
 }  // namespace
 
 Film::Film(const Settings& settings, const Filter& filter)
-    : settings_(checked(settings)), filter_(filter), pixelBounds_(croppedPixels(settings_)) {
+    : settings_(checked(settings)),
+      filter_(filter),
+      pixelBounds_(croppedPixels(settings_)),
+      firstRow_(pixelBounds_.min.y),
+      endRow_(pixelBounds_.max.y) {
   checkMemory(pixelBounds_, filter_.radius(), settings_.layers);
   sampleBounds_ = grownBounds(pixelBounds_, filter_.radius());
   const auto pixels = static_cast<std::size_t>(pixelBounds_.area());
@@ -136,8 +141,8 @@ bool Film::admit(Rgb& radiance, RenderCounters& counters) const {
 
 void Film::accumulate(const SamplePass& pass) {
   CHECK(pass.bounds() == sampleBounds_) << "a pass must cover the sample bounds of its film";
-  parallelFor(static_cast<std::size_t>(pixelBounds_.height()), [&](std::size_t row) {
-    const int y = pixelBounds_.min.y + static_cast<int>(row);
+  parallelFor(static_cast<std::size_t>(endRow_ - firstRow_), [&](std::size_t row) {
+    const int y = firstRow_ + static_cast<int>(row);
     accumulateRow(pass, y, 0, 1, state_.sums);
     if (hasHalves()) accumulateRow(pass, y, pass.firstIndex() % 2 == 0 ? 1 : 0, 2, state_.odd);
     if (!settings_.layers.isEmpty()) accumulateLayersOfRow(pass, y);
@@ -229,6 +234,45 @@ Image Film::surrogateReference() const {
     }
   }
   return image;
+}
+
+void Film::sumOnly(int first, int end) {
+  CHECK(pixelBounds_.min.y <= first && first <= end && end <= pixelBounds_.max.y);
+  firstRow_ = first;
+  endRow_ = end;
+}
+
+Film::State Film::rows(int first, int end) const {
+  const auto width = static_cast<std::ptrdiff_t>(pixelBounds_.width());
+  const auto part = [&](const auto& all, std::size_t perPixel) {
+    if (all.empty()) return all;
+    const std::ptrdiff_t perRow = width * static_cast<std::ptrdiff_t>(perPixel);
+    return std::remove_cvref_t<decltype(all)>(all.begin() + (first - pixelBounds_.min.y) * perRow,
+                                              all.begin() + (end - pixelBounds_.min.y) * perRow);
+  };
+  return {part(state_.sums, 1),   part(state_.odd, 1), part(state_.layers, settings_.layers.sumCount()),
+          part(state_.splats, 1), state_.splatPaths,   state_.splatArea};
+}
+
+bool Film::setRows(int first, int end, const State& rows) {
+  const std::size_t pixels =
+      static_cast<std::size_t>(end - first) * static_cast<std::size_t>(pixelBounds_.width());
+  const auto fits = [&](const auto& part, const auto& all, std::size_t perPixel) {
+    return part.size() == (all.empty() ? 0 : pixels * perPixel);
+  };
+  const std::size_t layerSums = settings_.layers.sumCount();
+  if (!fits(rows.sums, state_.sums, 1) || !fits(rows.odd, state_.odd, 1) ||
+      !fits(rows.layers, state_.layers, layerSums) || !fits(rows.splats, state_.splats, 1))
+    return false;
+  const auto offset = static_cast<std::ptrdiff_t>(first - pixelBounds_.min.y) * pixelBounds_.width();
+  const auto place = [&](const auto& part, auto& all, std::size_t perPixel) {
+    std::copy(part.begin(), part.end(), all.begin() + offset * static_cast<std::ptrdiff_t>(perPixel));
+  };
+  place(rows.sums, state_.sums, 1);
+  place(rows.odd, state_.odd, 1);
+  place(rows.layers, state_.layers, layerSums);
+  place(rows.splats, state_.splats, 1);
+  return true;
 }
 
 bool Film::restore(State state) {

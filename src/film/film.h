@@ -78,6 +78,8 @@ class Film {
   /// before the first sample. Costs a second set of sums, and half as much time again in adding passes.
   void keepHalves();
   bool hasHalves() const { return !state_.odd.empty(); }
+  /// From now on only the pixel rows [first, end) are summed; somebody else sums the others (setRows).
+  void sumOnly(int first, int end);
   /// Adds a pass over exactly `sampleBounds`; parallel over rows.
   void accumulate(const SamplePass& pass);
   /// Adds splats, each with the filter's weights over the filter's integral, in their order: for each pixel
@@ -96,6 +98,16 @@ class Film {
   /// for bias. Only when halves are kept; splats have none, and count as exact.
   Image surrogateReference() const;
 
+  /// Rows of pixels that a sample reaches: those from the row of its pixel - lastNeighbour to that -
+  /// firstNeighbour.
+  int firstNeighbourRow() const { return filter_.firstNeighbour().y; }
+  int lastNeighbourRow() const { return filter_.lastNeighbour().y; }
+
+  /// The part of the state that is of the pixel rows [first, end).
+  State rows(int first, int end) const;
+  /// Puts such a part, of a film like this one, in its place. False, changing nothing, when it is none.
+  bool setRows(int first, int end, const State& rows);
+
   /// For checkpoints, and back: false, changing nothing, for a state of another film.
   const State& state() const { return state_; }
   bool restore(State state);
@@ -110,6 +122,7 @@ class Film {
   bool keepsNegatives_ = false;
   FilterTable filter_;
   Bounds2i pixelBounds_, sampleBounds_;
+  int firstRow_, endRow_;  ///< that are summed here
   State state_;
 };
 

@@ -15,9 +15,16 @@ SamplePass::SamplePass(Bounds2i sampleBounds, int samplesPerPixel, const LayerSe
   layerData_.resize(data_.size() * layers_.sampleSize());
 }
 
-void SamplePass::clear() {
-  std::fill(data_.begin(), data_.end(), Sample{});
-  std::fill(layerData_.begin(), layerData_.end(), 0.0f);
+void SamplePass::clear(const Bounds2i& pixels) {
+  const auto width = static_cast<std::size_t>(pixels.width());
+  for (int s = 0; s < samples_ && width > 0; ++s) {
+    for (int y = pixels.min.y; y < pixels.max.y; ++y) {
+      const std::size_t first = index({pixels.min.x, y}, s);
+      std::fill_n(data_.begin() + static_cast<std::ptrdiff_t>(first), width, Sample{});
+      std::fill_n(layerData_.begin() + static_cast<std::ptrdiff_t>(first * layers_.sampleSize()),
+                  width * layers_.sampleSize(), 0.0f);
+    }
+  }
 }
 
 // One plane for each sample index: the order in which the film reads them.

@@ -35,10 +35,18 @@ class SamplePass {
                : LayerSample(layers_, layerData_.data() + index(pixel, sample) * layers_.sampleSize());
   }
   /// Its numbers (LayerSet::sampleSize); null where there are none.
+  float* layerValues(Point2i pixel, int sample) {
+    return layers_.isEmpty() ? nullptr : layerData_.data() + index(pixel, sample) * layers_.sampleSize();
+  }
   const float* layerValues(Point2i pixel, int sample) const {
     return layers_.isEmpty() ? nullptr : layerData_.data() + index(pixel, sample) * layers_.sampleSize();
   }
-  void clear();
+  /// Numbers of its layers that a sample has.
+  std::size_t layerSize() const { return layers_.sampleSize(); }
+  /// Nothing is taken of these pixels.
+  void clear(const Bounds2i& pixels);
+  /// Goes on with as many other samples, of which the first has this index; what is there stays.
+  void setFirstIndex(std::int64_t index) { firstIndex_ = index; }
 
  private:
   std::size_t index(Point2i pixel, int sample) const;

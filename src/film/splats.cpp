@@ -22,11 +22,11 @@ void Film::addSplats(std::span<const SplatBuffer> units, std::uint64_t paths, do
   state_.splatPaths += paths;
   state_.splatArea = area;
   if (state_.splats.empty()) state_.splats.resize(state_.sums.size());
-  const int rows = pixelBounds_.height();
+  const int rows = endRow_ - firstRow_;
   const int parts = (rows + kRowsAtATime - 1) / kRowsAtATime;
   parallelFor(static_cast<std::size_t>(parts), [&](std::size_t part) {
-    const int firstRow = pixelBounds_.min.y + static_cast<int>(part) * kRowsAtATime;
-    const int lastRow = std::min(firstRow + kRowsAtATime, pixelBounds_.max.y) - 1;
+    const int firstRow = firstRow_ + static_cast<int>(part) * kRowsAtATime;
+    const int lastRow = std::min(firstRow + kRowsAtATime, endRow_) - 1;
     std::vector<const Splat*> splats;
     for (const SplatBuffer& unit : units) {
       for (const Splat& splat : unit.splats()) {

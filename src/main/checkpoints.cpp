@@ -110,7 +110,8 @@ std::string quoted(const fs::path& path) { return '"' + path.string() + '"'; }
 
 }  // namespace
 
-Checkpoints::Checkpoints(const Options& options) : options_(options) {
+Checkpoints::Checkpoints(const Options& options, bool writes)
+    : options_(options), writes_(writes && options.checkpoint) {
   const auto &resume = options.resume, &checkpoint = options.checkpoint;
   const bool isOneFile = resume && checkpoint && areSame(*resume, *checkpoint);
   if (checkpoint && isFile(*checkpoint) && !isOneFile) {
@@ -118,7 +119,7 @@ Checkpoints::Checkpoints(const Options& options) : options_(options) {
            ": there is such a file, and a render may be in it; go on with it by --resume " +
            quoted(*checkpoint) + ", or remove it");
   }
-  if (checkpoint) removeLeftParts(*checkpoint);
+  if (writes_) removeLeftParts(*checkpoint);
   if (!resume) return;
   std::error_code ignored;
   if (isOneFile && !fs::exists(*resume, ignored)) {
@@ -211,17 +212,20 @@ void Checkpoints::attach(const Construction& scene, RenderOptions& loop) {
   const std::int64_t first = start_ ? start_->result.completedSamplesPerPixel : loop.firstSample;
   head_.parts.push_back({first, first, {}, threadCount(), buildText()});
   if (start_) loop.start = &*start_;
-  if (!options_.checkpoint) return;
+  if (!writes_) return;
   loop.mostSecondsPerPass =
       std::min(loop.mostSecondsPerPass, options_.checkpointInterval / kPassesPerInterval);
   loop.afterPass = [this, &scene, then = std::move(loop.afterPass)](const PassEnd& pass) {
-    if (isDue() && !write(scene, pass.result)) {
+    const bool writes = isDue();
+    if (writes) pass.bringFilm();
+    if (writes && !write(scene, pass.result)) {
       std::cerr << "\npbrt: warning: " << problem_ << "; the render goes on without a checkpoint\n";
     }
     return !then || then(pass);
   };
   loop.beforePartialPass = [this, &scene, then = std::move(loop.beforePartialPass)](const PassEnd& pass) {
     isPartial_ = true;
+    pass.bringFilm();
     write(scene, pass.result);
     if (then) then(pass);
   };
@@ -263,7 +267,7 @@ bool Checkpoints::write(const Construction& scene, const RenderResult& result) {
 
 bool Checkpoints::finish(const Construction& scene, const RenderResult& result) {
   notePart(result);
-  if (!options_.checkpoint) return true;
+  if (!writes_) return true;
   // The film has samples of a pass that was left inside; what stands before it is written already.
   if (!isPartial_ && lastSaved_ != result.completedSamplesPerPixel) write(scene, result);
   if (!problem_.empty()) {

@@ -23,7 +23,8 @@ class Checkpoints {
  public:
   /// Reads the file to go on from. Throws SceneError when there is none, when it is broken, or when another
   /// checkpoint would be overwritten.
-  explicit Checkpoints(const Options& options);
+  /// `writes`: false on ranks that only go on from it.
+  explicit Checkpoints(const Options& options, bool writes = true);
 
   /// The world to begin with, of so many. Throws SceneError when the checkpoint is of a later one.
   std::size_t firstWorld(std::size_t worlds) const;
@@ -53,6 +54,7 @@ class Checkpoints {
   void notePart(const RenderResult& result);
 
   const Options& options_;
+  bool writes_;
   std::optional<Checkpoint> from_;  ///< until its world is entered
   CheckpointHead head_;             ///< of the world under way
   std::vector<std::string> worldsDone_;

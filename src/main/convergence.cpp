@@ -93,7 +93,7 @@ ConvergenceLog::ConvergenceLog(const Params& params, const Film& film)
 }
 
 void ConvergenceLog::afterPass(const RenderResult& result) {
-  if (result.seconds >= nextRow_) writeRow(result);
+  if (isDue(result)) writeRow(result);
 }
 
 void ConvergenceLog::finish(const RenderResult& result) {

@@ -46,6 +46,8 @@ class ConvergenceLog {
   /// std::runtime_error when the file cannot be written.
   ConvergenceLog(const Params& params, const Film& film);
 
+  /// Whether it is time for a row, for which the film must be whole.
+  bool isDue(const RenderResult& result) const { return result.seconds >= nextRow_; }
   /// After each pass: writes a row when it is time for one. `result` is so far.
   void afterPass(const RenderResult& result);
   /// The last row, of the image as it is, and how long measuring took.

@@ -31,9 +31,8 @@ std::optional<ErrorSummary> estimatedError(const Film& film, Bounds2i pixels, co
 }
 
 bool ErrorTarget::isReached(const RenderResult& result) {
-  const auto samples = static_cast<double>(result.samplesTaken);
-  if (samples < nextLook_) return false;
-  nextLook_ = kGrowth * samples;
+  if (!isDue(result)) return false;
+  nextLook_ = kGrowth * static_cast<double>(result.samplesTaken);
   const std::optional<ErrorSummary> error = estimatedError(film_, pixels_, result);
   return error && std::sqrt(error->relativeMse) <= most_;
 }

@@ -23,6 +23,10 @@ class ErrorTarget {
  public:
   /// `most`: of sqrt(relativeMse), a relative error. `film` must outlive the object.
   ErrorTarget(double most, const Film& film, Bounds2i pixels) : most_(most), film_(film), pixels_(pixels) {}
+  /// Whether it is time to look, for which the film must be whole.
+  bool isDue(const RenderResult& result) const {
+    return static_cast<double>(result.samplesTaken) >= nextLook_;
+  }
   /// After a pass; looks only now and then, as an estimate that is often looked at is sometimes small by
   /// luck.
   bool isReached(const RenderResult& result);

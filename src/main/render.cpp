@@ -3,10 +3,12 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 #include "base/diagnostics.h"
 #include "base/parallel.h"
+#include "base/run_program.h"
 #include "base/stop_signal.h"
 #include "base/stopwatch.h"
 #include "image/image.h"
@@ -82,89 +84,140 @@ struct Outcome {
   bool isStopped = false;  ///< by a signal or a limit, before the end
 };
 
-Outcome renderScenes(const Options& options) {
-  checkFiles(options);
-  Checkpoints checkpoints(options);
-  const ThreadLimit threads(options.threads);
-  const StopSignal stop({.notice = kNothingYet,
-                         .timeLimit = options.timeLimit.value_or(StopSignal::kNever),
-                         .abandonsPaths = true});
-  const Ending ending{stop, Stopwatch()};
-  Watching watching(options);
-
-  const Stopwatch parsing;
+/// The worlds of the scene files. Shows what is wrong with them; throws ShownFailure when that makes them
+/// useless.
+std::vector<SceneDescription> readWorlds(const Options& options, Watching& watching) {
   Diagnostics diagnostics;
   diagnostics.strict = options.strict;
   std::vector<SceneDescription> worlds;
   try {
     const PhaseLine line(options.progress, options.quiet, "reading " + sceneNames(options));
     worlds = parseFiles(options.scenes, diagnostics, {.variables = options.variables});
-  } catch (const Interrupted& stopped) {
+  } catch (const Interrupted&) {
     show(diagnostics, options.quiet);
+    throw;
+  }
+  checkWorlds(worlds, options, diagnostics);
+  show(diagnostics, options.quiet);
+  watching.add(diagnostics);
+  if (diagnostics.hasErrors()) throw ShownFailure(diagnostics.format());
+  return worlds;
+}
+
+/// What cannot be shared out. Throws SceneError, on all ranks alike.
+void checkShareable(const Options& options) {
+  for (const auto& scene : options.scenes) {
+    if (scene == "-") {
+      throw SceneError({},
+                       "several processes cannot read one standard input; write the scene to a file, which "
+                       "all of them can read");
+    }
+  }
+}
+
+Outcome renderScenes(const Options& given, Together& together) {
+  const Options options = together.isFirst() ? given : optionsOfOthers(given);
+  std::optional<Checkpoints> checkpoints;
+  together.step([&] {
+    if (!together.ranks().isAlone()) checkShareable(options);
+    if (together.isFirst()) checkFiles(options);
+    checkpoints.emplace(options, together.isFirst());
+  });
+  const ThreadLimit threads(options.threads);
+  const StopSignal stop({.notice = together.isFirst() ? kNothingYet : nullptr,
+                         .timeLimit = options.timeLimit.value_or(StopSignal::kNever),
+                         .abandonsPaths = true});
+  const Ending ending{stop, Stopwatch()};
+  Watching watching(options);
+
+  const Stopwatch parsing;
+  std::vector<SceneDescription> worlds;
+  try {
+    worlds = together.step([&] { return readWorlds(options, watching); });
+  } catch (const ShownFailure&) {
+    return {kExitBadInput};
+  } catch (const Interrupted& stopped) {
     return {reportNoImage(stopped, options, ending, "while the scene was read"),
             stopped.cause() != StopCause::Time};
   }
   const PhaseTime parseTime = parsing.elapsed();
-  checkWorlds(worlds, options, diagnostics);
-  show(diagnostics, options.quiet);
-  watching.add(diagnostics);
-  if (diagnostics.hasErrors()) return {kExitBadInput};
 
-  KeptBounds bounds(options.boundsCache);
-  const Run run{options, ending, watching, bounds, checkpoints};
+  std::optional<KeptBounds> bounds;
+  const std::size_t first = together.step([&] {
+    bounds.emplace(options.boundsCache);
+    return checkpoints->firstWorld(worlds.size());
+  });
+  const Run run{options, ending, watching, *bounds, *checkpoints, together};
   int status = 0;
-  bool isStopped = false;
+  bool isStopped = false, isOver = false;
   std::vector<RenderStatistics> all;
-  const std::size_t first = checkpoints.firstWorld(worlds.size());
   if (first > 0 && !options.quiet)
     std::cerr << "pbrt: note: going on with world " << first + 1
               << "; the images of those before are written\n";
-  for (std::size_t number = first; number < worlds.size(); ++number) {
-    StopSignal::say(kNothingYet);
+  for (std::size_t number = first; number < worlds.size() && !isOver; ++number) {
+    if (together.isFirst()) StopSignal::say(kNothingYet);
     try {
       const std::optional<RenderStatistics> one =
           renderWorld(worlds[number], {number, worldName(options, number)}, run,
                       all.empty() ? parseTime : PhaseTime{}, status);
       if (!one) return {status};
       all.push_back(*one);
-      checkpoints.leave(statisticsText(*one));
+      checkpoints->leave(statisticsText(*one));
+      isOver = one->interrupted && stop;
+      isStopped = isOver && one->stoppedBy == "signal";
     } catch (const Interrupted& stopped) {
       const std::string which = worlds.size() > 1 ? " of world " + std::to_string(number + 1) : "";
       status = reportNoImage(stopped, options, ending, "before the first sample" + which);
       isStopped = stopped.cause() == StopCause::Signal;
-      break;
+      isOver = true;
     }
-    if (all.back().interrupted && stop) {
-      isStopped = all.back().stoppedBy == "signal";
-      break;
-    }
+    isOver = together.decide(isOver ? 1 : 0) == 1;
   }
-  if (options.statsFile && !all.empty()) writeStatistics(*options.statsFile, checkpoints.worldsDone());
-  return {status, isStopped};
+  if (options.statsFile && !all.empty()) writeStatistics(*options.statsFile, checkpoints->worldsDone());
+  return {together.decide(status), isStopped};
 }
 
-/// One after the other; a problem of one does not keep the others.
-int renderFrames(const Options& options) {
-  checkFrames(options);
+/// One after the other; a problem of one does not keep the others, unless several ranks have it.
+int renderFrames(const Options& options, Together& together) {
+  together.step([&] { checkFrames(options); });
   const FrameRange& frames = *options.frames;
   int status = 0;
   for (int frame = frames.first; frame <= frames.last; frame += frames.step) {
     if (!options.quiet)
       std::cerr << "pbrt: frame " << frame << " of " << frames.first << " to " << frames.last << '\n';
-    const Outcome one = renderScenes(optionsOfFrame(options, frame));
+    const Outcome one = renderScenes(optionsOfFrame(options, frame), together);
     if (status == 0) status = one.status;
-    if (one.isStopped || frame > frames.last - frames.step) break;
+    if (together.hasFailed() || frame > frames.last - frames.step) break;
+    if (together.decide(one.isStopped ? 1 : 0) == 1) break;
   }
   return status;
 }
 
 }  // namespace
 
-int runPbrt(const Options& options) {
+int runPbrt(const Options& options, Together& together) {
   if (options.cat || options.toPly) {
-    return printScenes(options.frames ? optionsOfFrame(options, options.frames->first) : options);
+    if (!together.isFirst()) return together.decide(0);
+    return together.decide(
+        printScenes(options.frames ? optionsOfFrame(options, options.frames->first) : options));
   }
-  return options.frames ? renderFrames(options) : renderScenes(options).status;
+  return options.frames ? renderFrames(options, together) : renderScenes(options, together).status;
+}
+
+int runPbrtProgram(const Options& options, Together& together) {
+  return runProgram("pbrt", [&] {
+    try {
+      const int status = runPbrt(options, together);
+      together.noteEnd();
+      return status;
+    } catch (const SceneError& e) {  // shown with its excerpt, as those that were collected
+      if (e.location().file == nullptr) throw;
+      Diagnostics diagnostics;
+      diagnostics.add(e);
+      std::cerr << diagnostics.format();
+      return kExitBadInput;
+    }
+  });
 }
 
 }  // namespace pbrtmedia

@@ -2,8 +2,11 @@
 #include "main/render_image.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 
+#include "base/byte_stream.h"
+#include "base/parallel.h"
 #include "main/convergence.h"
 #include "main/image_error.h"
 #include "main/progress.h"
@@ -16,7 +19,9 @@ namespace {
 /// What looks at the image after passes: whether it is good enough, and how good it is.
 class Measuring {
  public:
-  Measuring(const Construction& scene, const Options& options, Watching& watching) {
+  /// `isWanted`: false where somebody else measures.
+  Measuring(const Construction& scene, const Options& options, Watching& watching, bool isWanted) {
+    if (!isWanted) return;
     Film& film = *scene.film;
     const Bounds2i pixels =
         scene.pixelBounds ? intersect(film.pixelBounds(), *scene.pixelBounds) : film.pixelBounds();
@@ -33,10 +38,12 @@ class Measuring {
 
   bool isNeeded() const { return target_ || log_; }
   /// Whether to go on.
-  bool afterPass(const RenderResult& result, const StopSignal& stop) {
+  bool afterPass(const PassEnd& end, const StopSignal& stop) {
     const Stopwatch watch;
-    if (log_) log_->afterPass(result);
-    isGoodEnough_ = target_ && target_->isReached(result);
+    const bool isRowDue = log_ && log_->isDue(end.result), isLookDue = target_ && target_->isDue(end.result);
+    if (isRowDue || isLookDue) end.bringFilm();
+    if (isRowDue) log_->afterPass(end.result);
+    isGoodEnough_ = isLookDue && target_->isReached(end.result);
     time_ += watch.elapsed();
     stop.extend(watch.seconds());
     return !isGoodEnough_;
@@ -71,6 +78,36 @@ std::string nameOf(EarlyStop stop, bool isGoodEnough) {
   return interruption::requested == StopCause::Time ? "time" : "signal";
 }
 
+/// What the ranks did since `before`. Called by all; answers it on the first.
+std::vector<RankShare> sharesOf(Ranks& ranks, const RankTraffic& before, double cpu, std::uint64_t passes) {
+  if (ranks.isAlone()) return {};
+  const RankTraffic& now = ranks.traffic();
+  ByteWriter out;
+  out.add(static_cast<std::uint64_t>(threadCount()));
+  out.add(cpu);
+  out.add(passes);
+  out.add(now.bytes - before.bytes);
+  out.add(now.messages - before.messages);
+  out.add(now.waiting - before.waiting);
+  out.add(now.moving - before.moving);
+  std::vector<RankShare> shares;
+  for (const std::string& text : ranks.gather(out.text())) {
+    ByteReader in(text);
+    RankShare& share = shares.emplace_back();
+    share.threads = static_cast<unsigned>(in.number<std::uint64_t>());
+    share.cpu = in.number<double>();
+    share.passes = in.number<std::uint64_t>();
+    share.traffic.bytes = in.number<std::uint64_t>();
+    share.traffic.messages = in.number<std::uint64_t>();
+    share.traffic.waiting = in.number<double>();
+    share.traffic.moving = in.number<double>();
+  }
+  return shares;
+}
+
+/// The others stop so much later, seconds, that the first is never told by them.
+constexpr double kLateness = .05;
+
 }  // namespace
 
 bool needsHalves(const Options& options) {
@@ -78,7 +115,7 @@ bool needsHalves(const Options& options) {
 }
 
 RenderedImage renderImage(const Construction& scene, const Options& options, const Ending& ending,
-                          Watching& watching, Checkpoints& checkpoints) {
+                          Watching& watching, Checkpoints& checkpoints, const Together& together) {
   RenderOptions loop;
   loop.seed = options.seed;
   loop.tileSize = options.tileSize;
@@ -90,13 +127,19 @@ RenderedImage renderImage(const Construction& scene, const Options& options, con
     loop.learnsBounds = false;
   }
   if (options.mostLookups) loop.mostLookups = static_cast<std::uint64_t>(*options.mostLookups);
-  Measuring measuring(scene, options, watching);
+  Ranks& ranks = together.ranks();
+  loop.ranks = &ranks;
+  loop.limitSeconds = [&](double seconds) { ending.stop.endIn(seconds + kLateness); };
+  loop.secondsLeft = [&] { return ending.stop.secondsLeft(); };
+  const RankTraffic before = ranks.traffic();
+  const Stopwatch rendering;
+  Measuring measuring(scene, options, watching, ranks.isFirst());
   if (measuring.isNeeded()) loop.mostGrowth = ConvergenceLog::mostGrowth();
   if (watching.isOn()) loop.mostSecondsPerPass = Watching::kMostSecondsPerPass;
   if (measuring.isNeeded() || watching.isOn()) {
     loop.afterPass = [&](const PassEnd& end) {
       if (watching.isOn()) watching.afterPass(end, *scene.film);
-      return measuring.afterPass(end.result, ending.stop);
+      return measuring.afterPass(end, ending.stop);
     };
   }
   const double timeLeft = options.timeLimit ? *options.timeLimit - ending.sinceStart.seconds() : 0;
@@ -114,6 +157,7 @@ RenderedImage renderImage(const Construction& scene, const Options& options, con
   measuring.finish(rendered.result);
   rendered.measuring = measuring.time();
   rendered.stoppedBy = nameOf(rendered.result.stoppedBy, measuring.isGoodEnough());
+  rendered.ranks = sharesOf(ranks, before, rendering.elapsed().cpu, rendered.result.passes);
   return rendered;
 }
 

@@ -27,8 +27,8 @@ struct BuiltWorld {
   SceneIdentity identity;
 };
 
-/// Nothing when there are errors, which are shown.
-std::optional<BuiltWorld> build(SceneDescription& description, const Run& run) {
+/// Throws ShownFailure when there are errors, which are shown.
+BuiltWorld build(SceneDescription& description, const Run& run) {
   const Options& options = run.options;
   Diagnostics diagnostics;
   diagnostics.strict = options.strict;
@@ -42,7 +42,7 @@ std::optional<BuiltWorld> build(SceneDescription& description, const Run& run) {
       .mediumParams = parseParams(options.mediumParams, "--mediumparams", diagnostics)};
   if (diagnostics.hasErrors()) {
     show(diagnostics, options.quiet);
-    return std::nullopt;
+    throw ShownFailure(diagnostics.format());
   }
   SceneIdentity identity;
   run.watching.enter("building");
@@ -53,12 +53,12 @@ std::optional<BuiltWorld> build(SceneDescription& description, const Run& run) {
   }();
   show(diagnostics, options.quiet);
   run.watching.add(diagnostics);
-  if (!scene) return std::nullopt;
+  if (!scene) throw ShownFailure(diagnostics.format());
   description = {};  // what was not taken is not needed any more
   if (options.verbose) {
     for (const std::string& line : scene->report) std::cerr << "  " << line << '\n';
   }
-  return BuiltWorld{std::move(*scene), std::move(identity)};
+  return {std::move(*scene), std::move(identity)};
 }
 
 /// Throws SceneError when the scene has no such samples, or parts of them would not be parts of one image.
@@ -82,6 +82,19 @@ void checkRange(const SampleRange& range, const Construction& scene, bool resume
                          "\" learns its bounds while it is rendered, and each range would learn others; let "
                          "one render learn them with --bounds-cache FILE, and give that to all ranges");
   }
+}
+
+/// Where the render of a world starts.
+void begin(const BuiltWorld& world, const WorldId& id, const Run& run) {
+  const Options& options = run.options;
+  const Construction& scene = world.scene;
+  if (needsHalves(options)) scene.film->keepHalves();
+  run.checkpoints.enter(id.number, world.identity, scene);
+  if (!run.checkpoints.resumes()) {  // which brings its bounds along
+    const std::string boundsWarnings = run.bounds.restore(id.name, *scene.scene);
+    if (!options.quiet) std::cerr << boundsWarnings;
+  }
+  if (options.samples) checkRange(*options.samples, scene, run.checkpoints.resumes());
 }
 
 /// Writes what was rendered, a PNG beside it if that is wanted, and says where the files are: "wrote a.exr".
@@ -128,6 +141,7 @@ void fillIn(RenderStatistics& statistics, const RenderedImage& rendered) {
   statistics.stoppedBy = rendered.stoppedBy;
   statistics.counters = result.counters;
   statistics.learning = result.learning;
+  statistics.ranks = rendered.ranks;
 }
 
 /// What people should know of the image.
@@ -170,31 +184,29 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   statistics.parse = parseTime;
 
   const Stopwatch constructing;
-  const std::optional<BuiltWorld> world = build(description, run);
-  if (!world) {
+  std::optional<BuiltWorld> world;
+  try {
+    run.together.step([&] {
+      world.emplace(build(description, run));
+      statistics.construct = constructing.elapsed();
+      begin(*world, id, run);
+    });
+  } catch (const ShownFailure&) {
     status = kExitBadInput;
     return std::nullopt;
   }
   const Construction& scene = world->scene;
-  statistics.construct = constructing.elapsed();
   statistics.outfile = scene.outfile.string();
-  statistics.samplesPerPixel = scene.sampler->samplesPerPixel();
-  if (needsHalves(options)) scene.film->keepHalves();
-  run.checkpoints.enter(id.number, world->identity, scene);
-  if (!run.checkpoints.resumes()) {  // which brings its bounds along
-    const std::string boundsWarnings = run.bounds.restore(id.name, *scene.scene);
-    if (!options.quiet) std::cerr << boundsWarnings;
-  }
-  if (options.samples) {
-    checkRange(*options.samples, scene, run.checkpoints.resumes());
-    statistics.samplesPerPixel = options.samples->end - options.samples->first;
-  }
+  statistics.samplesPerPixel =
+      options.samples ? options.samples->end - options.samples->first : scene.sampler->samplesPerPixel();
 
-  StopSignal::say(kImageSoFar);
+  if (run.together.isFirst()) StopSignal::say(kImageSoFar);
   run.watching.begin(statistics.outfile, statistics.samplesPerPixel);
-  const RenderedImage rendered = renderImage(scene, options, run.ending, run.watching, run.checkpoints);
+  const RenderedImage rendered =
+      renderImage(scene, options, run.ending, run.watching, run.checkpoints, run.together);
   fillIn(statistics, rendered);
   const RenderResult& result = rendered.result;
+  if (!run.together.isFirst()) return statistics;                        // the first does the rest
   if (result.samplesTaken == 0 && result.interrupted) leaveIfStopped();  // black would be a wrong image
   const Stopwatch writing;
   run.watching.enter("writing");

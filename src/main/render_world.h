@@ -11,6 +11,7 @@
 #include "main/options.h"
 #include "main/render_image.h"
 #include "main/statistics_report.h"
+#include "main/together.h"
 #include "scene/description.h"
 
 namespace pbrtmedia {
@@ -31,6 +32,7 @@ struct Run {
   Watching& watching;
   KeptBounds& bounds;
   Checkpoints& checkpoints;
+  Together& together;
 };
 
 /// Which of them it is.
@@ -39,9 +41,9 @@ struct WorldId {
   std::string name;        ///< what a cache of bounds calls it
 };
 
-/// One world: built, rendered, written; told about on standard error. Takes its arrays. Sets `status` where
-/// it is not 0, and answers the numbers; nothing for a world that cannot be built. Throws Interrupted when it
-/// is to stop before the first sample.
+/// One world: built, rendered, and by the first rank written; told about on standard error. Takes its arrays.
+/// Sets `status` where it is not 0, and answers the numbers; nothing for a world that cannot be built. Throws
+/// Interrupted when it is to stop before the first sample.
 std::optional<RenderStatistics> renderWorld(SceneDescription& description, const WorldId& id, const Run& run,
                                             const PhaseTime& parseTime, int& status);
 

@@ -82,6 +82,20 @@ nlohmann::ordered_json toJson(const std::vector<RenderPart>& parts) {
   return all;
 }
 
+nlohmann::ordered_json toJson(const std::vector<RankShare>& ranks) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const RankShare& rank : ranks) {
+    all.push_back({{"threads", rank.threads},
+                   {"cpuSeconds", rank.cpu},
+                   {"bytesSent", rank.traffic.bytes},
+                   {"passes", rank.passes},
+                   {"messages", rank.traffic.messages},
+                   {"secondsWaiting", rank.traffic.waiting},
+                   {"secondsMoving", rank.traffic.moving}});
+  }
+  return all;
+}
+
 nlohmann::ordered_json toJson(const RenderStatistics& s) {
   return {{"scene", s.scene},
           {"outfile", s.outfile},
@@ -99,6 +113,7 @@ nlohmann::ordered_json toJson(const RenderStatistics& s) {
             {"measure", toJson(s.measure)},
             {"write", toJson(s.write)}}},
           {"parts", toJson(s.parts)},
+          {"ranks", toJson(s.ranks)},
           {"counters", toJson(s.counters)},
           {"learnedBounds", toJson(s.learning)},
           {"peakMemoryBytes", s.peakMemory}};
@@ -106,6 +121,29 @@ nlohmann::ordered_json toJson(const RenderStatistics& s) {
 
 double perSample(std::uint64_t count, const RenderStatistics& s) {
   return s.samplesTaken > 0 ? static_cast<double>(count) / static_cast<double>(s.samplesTaken) : 0;
+}
+
+/// What the ranks lost by being several.
+std::string describeRanks(const RenderStatistics& s) {
+  double waiting = 0, moving = 0;
+  std::uint64_t bytes = 0, threads = 0;
+  for (const RankShare& rank : s.ranks) {
+    threads += rank.threads;
+    bytes += rank.traffic.bytes;
+    waiting += rank.traffic.waiting;
+    moving += rank.traffic.moving;
+  }
+  const auto ofAll = static_cast<double>(s.ranks.size());
+  std::ostringstream os;
+  os.precision(3);
+  os << "  ranks     " << s.ranks.size() << " with " << threads << " threads, "
+     << formatCount(static_cast<double>(bytes)) << "B moved";
+  if (const std::uint64_t passes = s.ranks.front().passes; passes > 0)
+    os << " in " << passes << (passes == 1 ? " pass (" : " passes (")
+       << formatCount(static_cast<double>(bytes) / static_cast<double>(passes)) << "B each)";
+  os << "; each waited " << formatDuration(waiting / ofAll) << " for others and moved data for "
+     << formatDuration(moving / ofAll) << '\n';
+  return os.str();
 }
 
 }  // namespace
@@ -125,6 +163,7 @@ std::string formatStatistics(const RenderStatistics& s) {
     std::istringstream parts(formatParts(s.parts));
     for (std::string line; std::getline(parts, line);) os << "  part      " << line << '\n';
   }
+  if (!s.ranks.empty()) os << describeRanks(s);
   if (s.samplesTaken > 0) {
     os << "  samples   " << formatCount(static_cast<double>(s.samplesTaken)) << ", "
        << 1e6 * s.render.cpu / static_cast<double>(s.samplesTaken) << " us of CPU each\n";

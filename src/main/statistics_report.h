@@ -9,6 +9,7 @@
 #include "base/statistics.h"
 #include "base/stopwatch.h"
 #include "main/checkpoint_file.h"
+#include "main/render_image.h"
 #include "render/render_result.h"
 
 namespace pbrtmedia {
@@ -25,6 +26,7 @@ struct RenderStatistics {
   bool interrupted = false;
   std::string stoppedBy;                               ///< RenderedImage::stoppedBy
   PhaseTime parse, construct, render, measure, write;  ///< `render`: of all parts
+  std::vector<RankShare> ranks;                        ///< where several rendered it
   std::vector<RenderPart> parts;                       ///< one for each process that rendered some of it
   RenderCounters counters;
   std::vector<LearningRecord> learning;  ///< of media with progressive bounds

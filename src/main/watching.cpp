@@ -186,6 +186,7 @@ void Watching::afterPass(const PassEnd& pass, const Film& film) {
   showBounds(pass.result);
   const double start = clock_.seconds();
   if (!feed_->isWatched() || !pace_.isDue(start)) return;
+  pass.bringFilm();
   Image image = film.develop();
   const bool isRow = estimateError(image, pass.progress);
   feed_->give(title_, std::move(image));

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "fields/exploration.h"
 #include "media/medium.h"
+#include "render/shared_report.h"
 #include "world/scene.h"
 
 namespace pbrtmedia {
@@ -26,8 +27,8 @@ constexpr std::uint64_t kLeastWarmUp = std::uint64_t{1} << 21;
 
 }  // namespace
 
-BoundsLearning::BoundsLearning(const Scene& scene, bool isFixed, RenderResult& result)
-    : learners_(scene.learners()), isFixed_(isFixed), result_(result) {
+BoundsLearning::BoundsLearning(const Scene& scene, bool isFixed, Ranks& ranks, RenderResult& result)
+    : learners_(scene.learners()), isFixed_(isFixed), ranks_(ranks), result_(result) {
   if (!result_.learning.empty()) return;
   for (Medium* learner : learners_) {
     LearningRecord record;
@@ -67,17 +68,33 @@ void BoundsLearning::explore(std::size_t learner, std::uint64_t seed,
   const std::size_t blocks = plan.blockCount();
   const std::size_t chunk = std::max(kLeastBlocks, blocks / kMostChunks),
                     chunks = (blocks + chunk - 1) / chunk;
-  std::vector<RenderCounters> counters(chunks);
-  parallelFor(chunks, [&](std::size_t c) {
+  // Chunks are dealt out to the ranks one by one.
+  std::vector<RenderCounters> counters((chunks + ranks_.count() - 1 - ranks_.rank()) / ranks_.count());
+  parallelFor(counters.size(), [&](std::size_t i) {
     if (shouldStop()) return;
-    medium.exploreBounds(plan, c * chunk, std::min(blocks, (c + 1) * chunk), seed, counters[c]);
+    const std::size_t c = i * ranks_.count() + ranks_.rank();
+    medium.exploreBounds(plan, c * chunk, std::min(blocks, (c + 1) * chunk), seed, counters[i]);
   });
-  for (const RenderCounters& c : counters) {
-    record.warmUpLookups += c.densityLookups;
-    result_.counters.add(c);
-  }
-  bounds.publish();
+  RenderCounters explored;
+  for (const RenderCounters& c : counters) explored.add(c);
+  addUp(ranks_, explored);
+  record.warmUpLookups += explored.densityLookups;
+  result_.counters.add(explored);
+  publish(bounds);
   record.warmUp = bounds.progress();
+}
+
+void BoundsLearning::publish(LearnedBounds& bounds) {
+  LearnedBounds::Tally tally = bounds.takeTally();
+  if (!ranks_.isAlone()) {
+    std::vector<float> proposals = bounds.proposals();
+    ranks_.takeLargest(proposals);
+    bounds.addProposals(proposals);
+    std::uint64_t sums[] = {tally.cut, tally.depthFound, tally.depthCut};
+    ranks_.addUp(sums);
+    tally = {sums[0], sums[1], sums[2]};
+  }
+  bounds.publish(tally);
 }
 
 void BoundsLearning::publish(std::uint64_t samples) {
@@ -85,7 +102,7 @@ void BoundsLearning::publish(std::uint64_t samples) {
   for (std::size_t i = 0; i < learners_.size(); ++i) {
     LearnedBounds& bounds = *learners_[i]->learnedBounds();
     LearningRecord& record = result_.learning[i];
-    bounds.publish();
+    publish(bounds);
     record.passes.push_back(bounds.progress());
     record.shortfallOfSamples += bounds.progress().shortfall * static_cast<double>(samples);
     if (result_.samplesTaken > 0)

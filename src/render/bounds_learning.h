@@ -5,6 +5,8 @@
 #include <functional>
 #include <vector>
 
+#include "fields/learned_bounds.h"
+#include "render/ranks.h"
 #include "render/render_result.h"
 
 namespace pbrtmedia {
@@ -18,7 +20,7 @@ class BoundsLearning {
  public:
   /// Adds a record for each to `result.learning`, unless there are some from an earlier part of the render.
   /// `isFixed`: bounds are not learned any more; then nothing else happens.
-  BoundsLearning(const Scene& scene, bool isFixed, RenderResult& result);
+  BoundsLearning(const Scene& scene, bool isFixed, Ranks& ranks, RenderResult& result);
 
   /// Then every pass takes one sample of each pixel and publishes what it learned: so pass k sees the same
   /// bounds however samples are grouped otherwise.
@@ -27,16 +29,19 @@ class BoundsLearning {
   /// that follows the samples to take, and puts what was found into force. `shouldStop` is asked on the way,
   /// on any thread.
   void warmUp(std::uint64_t seed, const std::function<bool()>& shouldStop);
-  /// Puts into force what a pass of `samples` has learned.
+  /// Puts into force what a pass of `samples` has learned on all ranks.
   void publish(std::uint64_t samples);
 
  private:
+  /// Puts into force what the look-ups of all ranks have proposed.
+  void publish(LearnedBounds& bounds);
   void explore(std::size_t learner, std::uint64_t seed, const std::function<bool()>& shouldStop);
   /// Look-ups that the exploration of one medium may take.
   std::uint64_t warmUpBudget() const;
 
   std::vector<Medium*> learners_;
   bool isFixed_;
+  Ranks& ranks_;
   RenderResult& result_;
 };
 

@@ -5,14 +5,17 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "render/bounds_learning.h"
 #include "render/pass_report.h"
+#include "render/ranks.h"
 #include "render/render_options.h"
 #include "render/render_result.h"
 #include "render/schedule.h"
+#include "render/shared_report.h"
 
 namespace pbrtmedia {
 
@@ -32,20 +35,42 @@ class PassLoop {
   using TakeSamples = std::function<std::vector<UnitReport>(const Pass&)>;
   /// Adds what was taken last to the film.
   using AddToFilm = std::function<void(std::span<const UnitReport>)>;
+  /// Called on all ranks: brings the whole film to the first.
+  using CollectFilm = std::function<void()>;
 
   /// `scene` and `options` must outlive the object.
   PassLoop(const Scene& scene, const RenderOptions& options, const Plan& plan);
 
-  RenderResult run(const TakeSamples& takeSamples, const AddToFilm& addToFilm);
+  /// Passes that ranks can share take this rank's part of the samples, add what its part of the film is made
+  /// of, and have a `collectFilm`. Throws SceneError where there are several ranks and none.
+  RenderResult run(const TakeSamples& takeSamples, const AddToFilm& addToFilm,
+                   const CollectFilm& collectFilm = {});
 
   /// For passes. Thread-safe.
   bool shouldStop() const { return schedule_.shouldStop(); }
+  /// Samples of the pass that are being added to the film, of all ranks.
+  std::uint64_t samplesOfPass() const { return samplesOfPass_; }
   /// Samples that are done, for those who watch. Thread-safe.
   void count(std::uint64_t samples) { samplesDone_.fetch_add(samples, std::memory_order_relaxed); }
   /// To be called now and then. Thread-safe.
   void reportProgress();
 
  private:
+  /// What the first rank tells the others.
+  struct Order {
+    enum class Kind : std::uint64_t { TakePass, BringFilm, GoOn, End } kind = Kind::End;
+    Pass pass;
+    double secondsLeft = 0;
+  };
+  void tell(Order::Kind kind, const Pass& pass = {});
+  /// The next order but BringFilm, which is done at once.
+  Order hear();
+  /// The next pass, as the first rank decides.
+  std::optional<Pass> nextPass();
+  /// What the units report, of all ranks.
+  PassReport addUpUnits(std::span<const UnitReport> units, bool isFirstPass);
+  /// Before a pass that was left inside is added, the film is looked at on the first rank.
+  void showBeforePartialPass();
   static RenderResult resultAtStart(const RenderOptions& options, const Plan& plan);
   /// Seconds of this part and of those before.
   void noteTime();
@@ -53,12 +78,18 @@ class PassLoop {
   /// Asks somebody outside whether to go on, and leaves the time of that out.
   bool goesOn(const std::function<bool(const PassEnd&)>& ask);
 
+  const Scene& scene_;
   const RenderOptions& options_;
+  Ranks& ranks_;
+  CollectFilm collectFilm_;
   Plan plan_;
   RenderResult result_;
   BoundsLearning learning_;
   PhaseTime timeBefore_;  ///< of an earlier part of the render
   Schedule schedule_;
+  bool isEnded_ = false;    ///< by RenderOptions::afterPass
+  double cpuOfOthers_ = 0;  ///< seconds, of the other ranks up to the last pass
+  std::uint64_t samplesOfPass_ = 0;
   std::atomic<std::uint64_t> samplesDone_;
   std::mutex progressMutex_;
   double lastReport_ = 0;

@@ -37,4 +37,20 @@ void addReports(std::span<const UnitReport> units, bool isFirstPass, std::size_t
   }
 }
 
+void addRecords(const RenderResult& others, std::size_t maxRecords, RenderResult& result) {
+  mergeRecords(result.dropped, others.dropped, maxRecords);
+  mergeRecords(result.mismatches, others.mismatches, maxRecords);
+  mergeRecords(result.violations, others.violations, maxRecords);
+  result.counters.worstBoundRatio =
+      std::max(result.counters.worstBoundRatio, others.counters.worstBoundRatio);
+}
+
+void addPass(const RenderResult& taken, std::size_t maxRecords, RenderResult& result) {
+  result.samplesTaken += taken.samplesTaken;
+  result.samplesAbandoned += taken.samplesAbandoned;
+  result.pixelsSampled += taken.pixelsSampled;
+  result.counters.add(taken.counters);
+  addRecords(taken, maxRecords, result);
+}
+
 }  // namespace pbrtmedia

@@ -30,4 +30,9 @@ bool areComplete(std::span<const UnitReport> units);
 void addReports(std::span<const UnitReport> units, bool isFirstPass, std::size_t maxRecords,
                 RenderResult& result);
 
+/// Adds records (and the worst ratio of a violation) of samples that others took.
+void addRecords(const RenderResult& others, std::size_t maxRecords, RenderResult& result);
+/// Adds a whole pass.
+void addPass(const RenderResult& taken, std::size_t maxRecords, RenderResult& result);
+
 }  // namespace pbrtmedia

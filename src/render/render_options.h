@@ -12,6 +12,7 @@
 
 namespace pbrtmedia {
 
+class Ranks;
 struct RenderResult;
 struct RenderState;
 
@@ -25,6 +26,8 @@ struct RenderProgress {
 struct PassEnd {
   RenderProgress progress;
   const RenderResult& result;  ///< so far
+  /// To be called before the film is looked at: where others render parts of it, they send them.
+  std::function<void()> bringFilm = [] {};
 };
 
 /// What a render needs to know beyond scene, camera, sampler and film. The number of threads is the caller's
@@ -62,6 +65,13 @@ struct RenderOptions {
   /// Go on from here (restoreState has been called): the result is that of one render, bit for bit. Null:
   /// from the beginning.
   const RenderState* start = nullptr;
+  /// Those who share the passes, for the same image. The first decides about passes, and it alone calls the
+  /// hooks of passes and has the whole film in the end. Null: this process alone.
+  Ranks* ranks = nullptr;
+  /// Asked on the first rank, seconds until `stop` will be set as the time is up; the others are told
+  /// (limitSeconds) and set theirs.
+  std::function<double()> secondsLeft{};
+  std::function<void(double)> limitSeconds{};
 };
 
 }  // namespace pbrtmedia

@@ -58,6 +58,7 @@ struct RenderResult {
   std::int64_t completedSamplesPerPixel = 0;  ///< sample indices below it are taken in every pixel
   RenderCounters counters;
   double seconds = 0, cpuSeconds = 0;     ///< wall-clock and of all threads, without RenderOptions::afterPass
+  std::uint64_t passes = 0;               ///< of this part of the render
   bool interrupted = false;               ///< stopped before the last sample
   EarlyStop stoppedBy = EarlyStop::None;  ///< Asked: by RenderOptions::stop or afterPass
   /// Samples whose paths were under way when the run was to stop and did not end soon: not on the film.

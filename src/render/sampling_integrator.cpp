@@ -1,15 +1,25 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "render/sampling_integrator.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "base/byte_stream.h"
 #include "base/interruption.h"
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "render/pass_loop.h"
+#include "render/pass_shares.h"
+#include "render/ranks.h"
+#include "render/sample_delivery.h"
 #include "render/sample_taker.h"
+#include "render/state_stream.h"
 
 namespace pbrtmedia {
 namespace {
@@ -29,6 +39,21 @@ std::vector<Bounds2i> tilesOf(Bounds2i bounds, int size) {
   return tiles;
 }
 
+/// Several ranks need so many tiles for each thread, so that they can be shared evenly; as far as tiles are
+/// not too small to go through on their own.
+constexpr std::int64_t kTilesPerThread = 8;
+constexpr int kLeastEdge = 4;
+
+int tileEdge(const Bounds2i& bounds, const RenderOptions& options, Ranks& ranks) {
+  int edge = std::max(1, options.tileSize);
+  if (ranks.isAlone()) return edge;
+  std::uint64_t threads[] = {threadCount()};
+  ranks.addUp(threads);
+  const std::int64_t wanted = kTilesPerThread * static_cast<std::int64_t>(threads[0]);
+  while (edge > kLeastEdge && bounds.area() / (std::int64_t{edge} * edge) < wanted) edge = (edge + 1) / 2;
+  return edge;
+}
+
 /// The common loop: passes over tiles of pixels.
 class TileLoop {
  public:
@@ -42,16 +67,25 @@ class TileLoop {
         bounds_(options.pixelBounds ? intersect(film.sampleBounds(), *options.pixelBounds)
                                     : film.sampleBounds()),
         samplesPerPixel_(options.samplesPerPixel.value_or(sampler.samplesPerPixel())),
-        tiles_(tilesOf(bounds_, std::max(1, options.tileSize))),
+        ranks_(options.ranks ? *options.ranks : oneRank()),
+        shares_({.ranks = ranks_.count(),
+                 .tiles = tilesOf(bounds_, tileEdge(bounds_, options, ranks_)),
+                 .film = film.pixelBounds(),
+                 .firstNeighbour = film.firstNeighbourRow(),
+                 .lastNeighbour = film.lastNeighbourRow()}),
+        costs_(shares_.tiles().size()),
         loop_(integrator.scene(), options,
               {.end = std::min(samplesPerPixel_, options.endSample),
                .samplesPerIndex = static_cast<std::uint64_t>(bounds_.area()),
                .pixels = static_cast<std::uint64_t>(bounds_.area()),
-               .mostPerPass = mostPerPass()}) {}
+               .mostPerPass = mostPerPass()}) {
+    const RowRange rows = shares_.summedBy(ranks_.rank());
+    film_.sumOnly(rows.first, rows.end);
+  }
 
   RenderResult run() {
     return loop_.run([this](const Pass& pass) { return takeSamples(pass); },
-                     [this](std::span<const UnitReport> reports) { addToFilm(reports); });
+                     [this](std::span<const UnitReport>) { addToFilm(); }, [this] { collectFilm(); });
   }
 
  private:
@@ -63,22 +97,61 @@ class TileLoop {
   }
 
   std::vector<UnitReport> takeSamples(const Pass& pass) {
-    taken_.emplace(film_.sampleBounds(), pass.count, film_.layers(), pass.first);
-    splats_.assign(integrator_.makesSplats() ? tiles_.size() : 0, {});
-    std::vector<UnitReport> reports(tiles_.size());
-    parallelFor(tiles_.size(), [&](std::size_t i) {
-      renderTile(tiles_[i], pass, *taken_, reports[i], splats_.empty() ? nullptr : &splats_[i]);
+    balance();
+    const std::span<const std::size_t> tiles = shares_.takenBy(ranks_.rank());
+    prepare(pass, tiles);
+    splats_.assign(integrator_.makesSplats() ? tiles.size() : 0, {});
+    std::vector<UnitReport> reports(tiles.size());
+    parallelFor(tiles.size(), [&](std::size_t i) {
+      const Stopwatch watch;
+      renderTile(shares_.tiles()[tiles[i]], pass, *taken_, reports[i],
+                 splats_.empty() ? nullptr : &splats_[i]);
+      costs_[tiles[i]] += static_cast<std::uint64_t>(watch.seconds() * 1e9);
     });
     return reports;
   }
 
-  void addToFilm(std::span<const UnitReport> reports) {
+  /// Memory for a pass. With several ranks that of the last one serves again: nobody looks at what is neither
+  /// taken here nor delivered.
+  void prepare(const Pass& pass, std::span<const std::size_t> tiles) {
+    if (ranks_.isAlone() || !taken_ || taken_->samplesPerPixel() != pass.count) {
+      taken_.emplace(film_.sampleBounds(), pass.count, film_.layers(), pass.first);
+      return;
+    }
+    taken_->setFirstIndex(pass.first);
+    for (const std::size_t tile : tiles) taken_->clear(shares_.tiles()[tile]);
+  }
+
+  /// Shares the tiles by what they have cost: after 1, 2, 4, 8 ... passes, as costs hardly change later.
+  void balance() {
+    const int passes = passes_++;
+    if (ranks_.isAlone() || passes == 0 || (passes & (passes - 1)) != 0) return;
+    std::vector<std::uint64_t> costs = costs_;
+    ranks_.addUp(costs);
+    shares_.balance(costs);
+  }
+
+  void addToFilm() {
+    std::vector<SplatBuffer> others;
+    if (!ranks_.isAlone())
+      others = deliver(ranks_, shares_, *taken_, integrator_.makesSplats() ? &splats_ : nullptr);
     film_.accumulate(*taken_);
-    taken_.reset();
-    if (splats_.empty()) return;
-    std::uint64_t paths = 0;
-    for (const UnitReport& report : reports) paths += report.samples;
-    film_.addSplats(splats_, paths, film_.imageArea());
+    if (ranks_.isAlone()) taken_.reset();
+    if (!integrator_.makesSplats()) return;
+    for (SplatBuffer& buffer : others) splats_.push_back(std::move(buffer));
+    film_.addSplats(splats_, loop_.samplesOfPass(), film_.imageArea());
+  }
+
+  void collectFilm() {
+    const RowRange own = shares_.summedBy(ranks_.rank());
+    ByteWriter out;
+    writeFilm(out, integrator_.scene(), film_.rows(own.first, own.end));
+    const std::vector<std::string> parts = ranks_.gather(ranks_.isFirst() ? std::string() : out.text());
+    for (std::size_t rank = 1; rank < parts.size(); ++rank) {
+      ByteReader in(parts[rank]);
+      const RowRange rows = shares_.summedBy(rank);
+      CHECK(film_.setRows(rows.first, rows.end, readFilm(in, integrator_.scene())));
+    }
   }
 
   void renderTile(const Bounds2i& tile, const Pass& pass, SamplePass& samples, UnitReport& report,
@@ -121,7 +194,10 @@ class TileLoop {
   const RenderOptions& options_;
   Bounds2i bounds_;
   std::int64_t samplesPerPixel_;
-  std::vector<Bounds2i> tiles_;
+  Ranks& ranks_;
+  PassShares shares_;
+  std::vector<std::uint64_t> costs_;  ///< of tiles so far, nanoseconds of this rank's threads
+  int passes_ = 0;
   std::optional<SamplePass> taken_;  ///< by the pass under way
   std::vector<SplatBuffer> splats_;  ///< by tiles
   PassLoop loop_;

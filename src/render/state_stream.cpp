@@ -75,11 +75,12 @@ void transfer(Archive& archive, T& record) {
 
 template <class Archive, Is<RenderResult> T>
 void transfer(Archive& archive, T& result) {
-  auto& [samplesTaken, samplesTotal, completedSamplesPerPixel, counters, seconds, cpuSeconds, interrupted,
-         stoppedBy, samplesAbandoned, pixelsTotal, pixelsSampled, dropped, mismatches, violations, learning] =
-      result;
+  auto& [samplesTaken, samplesTotal, completedSamplesPerPixel, counters, seconds, cpuSeconds, passes,
+         interrupted, stoppedBy, samplesAbandoned, pixelsTotal, pixelsSampled, dropped, mismatches,
+         violations, learning] = result;
   archive(samplesTaken, samplesTotal, completedSamplesPerPixel, counters, seconds, cpuSeconds,
           samplesAbandoned, pixelsTotal, pixelsSampled, dropped, mismatches, violations, learning);
+  static_cast<void>(passes);       // of one part
   static_cast<void>(interrupted);  // what goes on is not
   static_cast<void>(stoppedBy);
 }
@@ -227,6 +228,24 @@ void writeState(ByteWriter& out, const Scene& scene, const Film& film, const Ren
   const std::vector<Medium*> learners = scene.learners();
   out.add(static_cast<std::uint64_t>(learners.size()));
   for (Medium* learner : learners) write(learner->learnedBounds()->state());  // one at a time in memory
+}
+
+void writeResult(ByteWriter& out, const Scene& scene, const RenderResult& result) {
+  Writing(out, scene)(result);
+}
+
+RenderResult readResult(ByteReader& in, const Scene& scene) {
+  RenderResult result;
+  Reading(in, scene)(result);
+  return result;
+}
+
+void writeFilm(ByteWriter& out, const Scene& scene, const Film::State& film) { Writing(out, scene)(film); }
+
+Film::State readFilm(ByteReader& in, const Scene& scene) {
+  Film::State film;
+  Reading(in, scene)(film);
+  return film;
 }
 
 RenderState readState(ByteReader& in, const Scene& scene) {

@@ -15,4 +15,10 @@ void writeState(ByteWriter& out, const Scene& scene, const Film& film, const Ren
 /// writeState cannot have written; whether film and bounds fit is known to restoreState.
 RenderState readState(ByteReader& in, const Scene& scene);
 
+/// Parts of states, for those who render together. Reading throws as readState does.
+void writeResult(ByteWriter& out, const Scene& scene, const RenderResult& result);
+RenderResult readResult(ByteReader& in, const Scene& scene);
+void writeFilm(ByteWriter& out, const Scene& scene, const Film::State& film);
+Film::State readFilm(ByteReader& in, const Scene& scene);
+
 }  // namespace pbrtmedia

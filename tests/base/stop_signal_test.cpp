@@ -8,6 +8,8 @@
 #include <functional>
 #include <thread>
 
+#include "base/stopwatch.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -91,6 +93,27 @@ TEST(StopSignal, LetsTheTimeEndLaterForWhatDoesNotCount) {
   const StopSignal endless;
   endless.extend(1);
   EXPECT_FALSE(endless);
+}
+
+TEST(StopSignal, LetsTheTimeEndWhenItIsTold) {
+  {
+    const StopSignal stop({.abandonsPaths = true});
+    EXPECT_EQ(stop.secondsLeft(), StopSignal::kNever);
+    stop.endIn(30);
+    EXPECT_NEAR(stop.secondsLeft(), 30, 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_FALSE(stop);
+    const Stopwatch watch;
+    stop.endIn(.05);  // sooner than it waits for
+    waitFor([&] { return stop.flag().load(); });
+    EXPECT_TRUE(stop);
+    EXPECT_GE(watch.seconds(), .05);
+    EXPECT_EQ(causeOfLeaving(leaveIfStopped), StopCause::Time);
+  }
+  const StopSignal again({.timeLimit = .02, .abandonsPaths = true});
+  again.endIn(StopSignal::kNever);
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_FALSE(again);
 }
 
 TEST(StopSignal, LeavesAHangupIgnoredWhereItWas) {

@@ -494,7 +494,7 @@ TEST(SamplePass, KeepsEachSampleApartAndClears) {
       for (int x = -1; x < 2; ++x) EXPECT_EQ(pass.at({x, y}, s).radiance.r, n++);
     }
   }
-  pass.clear();
+  pass.clear(pass.bounds());
   EXPECT_FALSE(pass.at({1, 0}, 1).valid);
 }
 

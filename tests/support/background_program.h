@@ -48,6 +48,7 @@ class BackgroundProgram {
   BackgroundProgram(const BackgroundProgram&) = delete;
   BackgroundProgram& operator=(const BackgroundProgram&) = delete;
 
+  pid_t process() const { return process_; }
   std::string output() const {
     std::ostringstream text;
     text << std::ifstream(output_).rdbuf();
