@@ -28,7 +28,7 @@ namespace {
 Film filmOfAll() {
   Film::Settings settings;
   settings.resolution = {37, 23};
-  settings.layers.add(Layer::Lookups);
+  settings.layers = LayerSet(maskOf({Layer::Lookups, Layer::Variance, Layer::Samples}));
   Film film(settings, GaussianFilter({}));
   film.keepHalves();
   return film;
@@ -202,7 +202,7 @@ TEST(Ranks, HearHowMuchTimeIsLeft) {
 
 TEST(Ranks, MoveOnlyWhatOthersNeed) {
   const Film film = filmOfAll();
-  const std::size_t perSample = bytesOfSample(1);
+  const std::size_t perSample = bytesOfSample(film.layers().sampleSize());
   onRanks(4, [&](ThreadRanks& ranks) {
     // Tiles are rows.
     PassShares::Plan plan{.ranks = 4,
