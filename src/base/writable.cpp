@@ -32,7 +32,8 @@ std::string unwritableReason(const std::filesystem::path& path) {
   name.append(target.filename().string()).append(".part").append(std::to_string(::getpid())).append("-0000");
   const fs::path probe = folder / name;
   const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (file < 0) return lastReason();
+  // Another machine's process of the same number probes at this moment.
+  if (file < 0) return errno == EEXIST ? std::string() : lastReason();
   ::close(file);
   ::unlink(probe.c_str());
   return {};
