@@ -225,7 +225,21 @@ Plan readImagemap(Texturable& in, const TextureDescription& d) {
   return plan;
 }
 
-constexpr std::array<Plugin<ReadTexture>, 10> kFloatTextures = {{{"constant", readConstant<float>},
+/// Of a texture that needs a library which no build has.
+template <class T>
+Plan readPtex(Texturable& in, const TextureDescription&) {
+  ParamReader& own = in.own();
+  own.findString("filename", "");
+  own.findFloat("gamma", 2.2f);
+  tolerate(own,
+           "needs the Ptex library, which this program is built without; a constant grey (0.5) takes its "
+           "place; an \"imagemap\" of a baked picture shows it");
+  Plan plan = planOf<T>([](Textures&) { return std::make_unique<ConstantTexture<T>>(T(0.5f)); });
+  plan.isUnusable = true;
+  return plan;
+}
+
+constexpr std::array<Plugin<ReadTexture>, 11> kFloatTextures = {{{"constant", readConstant<float>},
                                                                  {"scale", readScale<float>},
                                                                  {"mix", readMix<float>},
                                                                  {"bilerp", readBilerp<float>},
@@ -234,9 +248,10 @@ constexpr std::array<Plugin<ReadTexture>, 10> kFloatTextures = {{{"constant", re
                                                                  {"imagemap", readImagemap<float>},
                                                                  {"fbm", readFbm<float>},
                                                                  {"wrinkled", readWrinkled<float>},
-                                                                 {"windy", readWindy<float>}}};
+                                                                 {"windy", readWindy<float>},
+                                                                 {"ptex", readPtex<float>}}};
 
-constexpr std::array<Plugin<ReadTexture>, 12> kRgbTextures = {{{"constant", readConstant<Rgb>},
+constexpr std::array<Plugin<ReadTexture>, 13> kRgbTextures = {{{"constant", readConstant<Rgb>},
                                                                {"scale", readScale<Rgb>},
                                                                {"mix", readMix<Rgb>},
                                                                {"bilerp", readBilerp<Rgb>},
@@ -247,7 +262,8 @@ constexpr std::array<Plugin<ReadTexture>, 12> kRgbTextures = {{{"constant", read
                                                                {"fbm", readFbm<Rgb>},
                                                                {"wrinkled", readWrinkled<Rgb>},
                                                                {"windy", readWindy<Rgb>},
-                                                               {"marble", readMarble}}};
+                                                               {"marble", readMarble},
+                                                               {"ptex", readPtex<Rgb>}}};
 
 }  // namespace
 

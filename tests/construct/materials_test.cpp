@@ -236,10 +236,10 @@ TEST(ConstructMaterial, MakesAMatteOfAnUnknownType) {
 
 TEST(ConstructMaterial, TakesTheDefaultForATextureOfAnUnknownClass) {
   const std::string unknown =
-      "Texture \"f\" \"float\" \"ptex\" \"string filename\" \"x\" Texture \"s\" \"spectrum\" \"ptex\" ";
+      "Texture \"f\" \"float\" \"pctx\" \"string filename\" \"x\" Texture \"s\" \"spectrum\" \"pctx\" ";
   const auto tolerated = [&](const std::string& world) {
     const Attempt a = attemptWorld(unknown + world);
-    EXPECT_TRUE(a.warns("unknown type \"ptex\"")) << a.messages();
+    EXPECT_TRUE(a.warns("unknown type \"pctx\"")) << a.messages();
     return values(a);
   };
   EXPECT_EQ(tolerated("Material \"matte\" \"texture Kd\" \"s\" \"texture bumpmap\" \"f\"" + kShape),

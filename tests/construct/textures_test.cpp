@@ -176,12 +176,24 @@ TEST_F(ConstructTexture, TexturesReferToTextures) {
       maker(), values);
 }
 
+TEST_F(ConstructTexture, PtexIsGreyAsLongAsThereIsNoLibrary) {
+  for (const std::string kind : {"float", "spectrum"}) {
+    const Attempt a = maker()(shown(kind, "\"ptex\" \"string filename\" \"x.ptx\" \"float gamma\" 1"));
+    EXPECT_TRUE(a.warns("needs the Ptex library")) << a.messages();
+    EXPECT_FALSE(a.warns("unknown parameter")) << a.messages();
+    const std::string value = kind == "float" ? "\"float value\" .5" : "\"rgb value\" [ .5 .5 .5 ]";
+    EXPECT_EQ(values(a), values(maker()(shown(kind, "\"constant\" " + value))));
+  }
+}
+
 TEST_F(ConstructTexture, SaysWhatIsWrongAndWhere) {
   expectMistakes(
       {{shown("spectrum", "\"chekerboard\""),
         "spectrum texture \"t\": unknown type \"chekerboard\"; did you mean \"checkerboard\"?", "t.pbrt:2:24",
         kTolerated},
-       {shown("float", "\"ptex\""), "unknown type \"ptex\"", "", kTolerated},
+       {shown("float", "\"pctx\""), "unknown type \"pctx\"", "", kTolerated},
+       {shown("spectrum", "\"ptex\" \"string filename\" \"x.ptx\""),
+        "spectrum texture \"t\": needs the Ptex library", "", kTolerated},
        {shown("float", "\"constant\" \"float valeu\" 1"),
         "unknown parameter \"valeu\"; did you mean \"value\"?", "t.pbrt:2:32", kTolerated},
        {shown("spectrum", "\"constant\" \"float value\" 1"), "\"value\": found type float, expected rgb", "",

@@ -10,6 +10,7 @@
 
 #include "checkpoint_scene.h"
 #include "main/checkpoint_file.h"
+#include "materials/fourier_sample.h"
 #include "media/bounds_cache.h"
 #include "media/grid_medium.h"
 #include "render/state_stream.h"
@@ -32,6 +33,13 @@ fs::path folder(const fs::path& parent, const char* name) {
 }
 
 void write(const fs::path& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
+
+void writeBsdfs(const fs::path& to) {
+  for (const std::uint32_t channels : {1u, 3u}) {
+    const test::FourierSample sample{.channels = channels, .cosines = test::fourierCosines(2)};
+    write(to / ("channels" + std::to_string(channels)), sample.bytes());
+  }
+}
 
 void writeRawGrids(const fs::path& to) {
   std::vector<float> numbers;
@@ -115,6 +123,7 @@ void writeVdbs(const fs::path& to) {
 int main(int argc, char** argv) {
   if (argc != 2) return 1;
   const fs::path to = argv[1];
+  writeBsdfs(folder(to, "bsdf"));
   writeRawGrids(folder(to, "rawgrid"));
   writeBounds(folder(to, "bounds"));
   writeCheckpoints(folder(to, "checkpoint"));

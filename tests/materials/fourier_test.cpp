@@ -56,6 +56,36 @@ TEST(FourierScattering, ReturnsWhatItsTableSays) {
   }
 }
 
+TEST(FourierTable, OfAnyBytesIsRefusedOrCanBeAsked) {
+  const std::string good = FourierSample{.cosines = test::fourierCosines(2)}.bytes();
+  Rng rng(77);
+  int tables = 0, refused = 0;
+  for (int i = 0; i < 4000; ++i) {
+    std::string bytes = good;
+    for (int k = 0; k < 3; ++k) {
+      const float u = rng.uniform(), v = rng.uniform();
+      bytes[8 + static_cast<std::size_t>(u * static_cast<float>(bytes.size() - 8))] =
+          static_cast<char>(static_cast<int>(v * 256));
+    }
+    try {
+      const FourierTable table = FourierTable::parse(bytes, "t.bsdf");
+      ++tables;
+      const FourierScattering law{&table};
+      const float a = rng.uniform(), b = rng.uniform(), c = rng.uniform(), d = rng.uniform();
+      const Vector3f wo = sampleUniformSphere({a, b});
+      const LobeSample s = law.sample(wo, {c, d});
+      if (s.pdf > 0) {
+        EXPECT_NEAR(length(s.wi), 1, 1e-3f);
+      }
+      EXPECT_GE(law.pdf(wo, sampleUniformSphere({c, d})), 0);
+    } catch (const SceneError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(tables, 100);
+  EXPECT_GT(refused, 100);
+}
+
 TEST(FourierTable, RefusesWhatIsNone) {
   const auto refusal = [](std::string_view bytes) -> std::string {
     try {
