@@ -81,6 +81,31 @@ TEST_F(WatchingTest, AViewerShowsTheImageThatIsWrittenAndChangesNoBitOfIt) {
   EXPECT_EQ(viewer.packets().images.begin()->first.find("a.exr ("), 0u);
 }
 
+TEST_F(WatchingTest, AViewerGetsEachLayerWithTheNumbersThatAreWritten) {
+  folder_.write("a.pbrt", scene(150, "4"));
+  const TevViewer viewer;
+  const ProcessResult r =
+      pbrt("--layers all --pixeltype float --display-server " + viewer.endpoint() + " a.pbrt");
+  ASSERT_EQ(r.status, 0) << r.output;
+  const Image written = image();
+  EXPECT_GT(written.channelCount(), 30u);
+  const auto isShown = [&](const TevPackets& packets) {
+    if (packets.images.size() != 1) return false;
+    const auto& planes = packets.images.begin()->second.planes;
+    if (planes.size() != written.channelCount()) return false;
+    for (std::size_t c = 0; c < written.channelCount(); ++c) {
+      const auto plane = planes.find(written.channels()[c]);
+      if (plane == planes.end()) return false;
+      for (std::size_t i = 0; i < plane->second.size(); ++i) {
+        if (plane->second[i] != written.data()[i * written.channelCount() + c]) return false;
+      }
+    }
+    return true;
+  };
+  EXPECT_TRUE(viewer.waitFor(isShown));
+  EXPECT_EQ(viewer.problem(), "");
+}
+
 TEST_F(WatchingTest, AViewerSeesTheImageGrow) {
   folder_.write("a.pbrt", scene(32, kEndless));
   const TevViewer viewer;
