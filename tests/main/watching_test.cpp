@@ -84,8 +84,7 @@ TEST_F(WatchingTest, AViewerShowsTheImageThatIsWrittenAndChangesNoBitOfIt) {
 TEST_F(WatchingTest, AViewerGetsEachLayerWithTheNumbersThatAreWritten) {
   folder_.write("a.pbrt", scene(150, "4"));
   const TevViewer viewer;
-  const ProcessResult r =
-      pbrt("--layers all --pixeltype float --display-server " + viewer.endpoint() + " a.pbrt");
+  const ProcessResult r = pbrt("--layers all --display-server " + viewer.endpoint() + " a.pbrt");
   ASSERT_EQ(r.status, 0) << r.output;
   const Image written = image();
   EXPECT_GT(written.channelCount(), 30u);
