@@ -8,11 +8,13 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "main/options.h"
 #include "main/render.h"
 #include "main/together.h"
+#include "mpi/message_pattern.h"
 #include "mpi/mpi_ranks.h"
 
 namespace pbrtmedia {
@@ -49,6 +51,10 @@ int main(int argc, char** argv) {
   MpiRanks ranks(argc, argv);
   std::optional<Silence> silence;
   if (!ranks.isFirst()) silence.emplace();
+  if (argc == 2 && std::string_view(argv[1]) == "--message-pattern") {
+    std::cout << messagePattern();
+    return 0;
+  }
   const OptionsOutcome outcome = readOptions(argc, argv);
   if (!outcome.options) return outcome.exitStatus;
   google::InitGoogleLogging(argv[0]);

@@ -10,6 +10,29 @@
 #include <utility>
 
 namespace pbrtmedia {
+namespace {
+
+/// So many tiles a thread can be shared evenly, as far as they are not too small to go through on their own.
+constexpr std::int64_t kTilesPerThread = 8;
+constexpr int kLeastEdge = 4;
+
+}  // namespace
+
+std::vector<Bounds2i> PassShares::tilesOf(Bounds2i bounds, int edge) {
+  std::vector<Bounds2i> tiles;
+  for (int y = bounds.min.y; y < bounds.max.y; y += edge) {
+    for (int x = bounds.min.x; x < bounds.max.x; x += edge) {
+      tiles.push_back(intersect(Bounds2i{{x, y}, {x + edge, y + edge}}, bounds));
+    }
+  }
+  return tiles;
+}
+
+int PassShares::tileEdge(const Bounds2i& bounds, int edge, std::uint64_t threads) {
+  const std::int64_t wanted = kTilesPerThread * static_cast<std::int64_t>(threads);
+  while (edge > kLeastEdge && bounds.area() / (std::int64_t{edge} * edge) < wanted) edge = (edge + 1) / 2;
+  return edge;
+}
 
 PassShares::PassShares(Plan plan) : plan_(std::move(plan)), taken_(plan_.ranks) {
   CHECK_GT(plan_.ranks, 0u);

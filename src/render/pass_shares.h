@@ -31,6 +31,11 @@ class PassShares {
   };
   explicit PassShares(Plan plan);
 
+  /// Squares of `edge` pixels over `bounds`, row by row; those at its end may be smaller.
+  static std::vector<Bounds2i> tilesOf(Bounds2i bounds, int edge);
+  /// `edge`, or less where so many threads, of all ranks, could not share such tiles evenly.
+  static int tileEdge(const Bounds2i& bounds, int edge, std::uint64_t threads);
+
   std::size_t ranks() const { return plan_.ranks; }
   const std::vector<Bounds2i>& tiles() const { return plan_.tiles; }
   /// Of the film, that a rank sums. Where there are more ranks than rows some have none.

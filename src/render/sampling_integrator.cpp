@@ -29,29 +29,12 @@ constexpr std::size_t kPassBytes = std::size_t{64} << 20;
 /// Splats that a sample is taken to have, for that.
 constexpr std::size_t kSplatsPerSample = 4;
 
-std::vector<Bounds2i> tilesOf(Bounds2i bounds, int size) {
-  std::vector<Bounds2i> tiles;
-  for (int y = bounds.min.y; y < bounds.max.y; y += size) {
-    for (int x = bounds.min.x; x < bounds.max.x; x += size) {
-      tiles.push_back(intersect(Bounds2i{{x, y}, {x + size, y + size}}, bounds));
-    }
-  }
-  return tiles;
-}
-
-/// Several ranks need so many tiles for each thread, so that they can be shared evenly; as far as tiles are
-/// not too small to go through on their own.
-constexpr std::int64_t kTilesPerThread = 8;
-constexpr int kLeastEdge = 4;
-
 int tileEdge(const Bounds2i& bounds, const RenderOptions& options, Ranks& ranks) {
-  int edge = std::max(1, options.tileSize);
+  const int edge = std::max(1, options.tileSize);
   if (ranks.isAlone()) return edge;
   std::uint64_t threads[] = {threadCount()};
   ranks.addUp(threads);
-  const std::int64_t wanted = kTilesPerThread * static_cast<std::int64_t>(threads[0]);
-  while (edge > kLeastEdge && bounds.area() / (std::int64_t{edge} * edge) < wanted) edge = (edge + 1) / 2;
-  return edge;
+  return PassShares::tileEdge(bounds, edge, threads[0]);
 }
 
 /// The common loop: passes over tiles of pixels.
@@ -69,7 +52,7 @@ class TileLoop {
         samplesPerPixel_(options.samplesPerPixel.value_or(sampler.samplesPerPixel())),
         ranks_(options.ranks ? *options.ranks : oneRank()),
         shares_({.ranks = ranks_.count(),
-                 .tiles = tilesOf(bounds_, tileEdge(bounds_, options, ranks_)),
+                 .tiles = PassShares::tilesOf(bounds_, tileEdge(bounds_, options, ranks_)),
                  .film = film.pixelBounds(),
                  .firstNeighbour = film.firstNeighbourRow(),
                  .lastNeighbour = film.lastNeighbourRow()}),

@@ -12,12 +12,14 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "support/background_program.h"
 #include "support/process.h"
+#include "support/source_dir.h"
 #include "support/temporary_folder.h"
 
 namespace pbrtmedia::test {
@@ -195,6 +197,15 @@ TEST_F(PbrtMpi, StopsWhereOneProcessStops) {
   EXPECT_EQ(statistics("many.json")[0].at("samplesTaken"), statistics("one.json")[0].at("samplesTaken"));
   EXPECT_TRUE(folder_.read("many.pfm") == folder_.read("one.pfm"));
   EXPECT_EQ(countOf(folder_.read("many.csv"), "# convergence of"), 1);
+}
+
+TEST_F(PbrtMpi, TheTableOfThePageIsWhatTheProgramPrints) {
+  const ProcessResult r = mpi(1, "--message-pattern");
+  EXPECT_EQ(r.status, 0);
+  EXPECT_GT(countOf(r.output, "| 1024 |"), 0) << r.output;
+  std::ostringstream page;
+  page << std::ifstream(sourceDir() / "docs/scaling.md").rdbuf();
+  EXPECT_NE(page.str().find(r.output), std::string::npos) << "docs/scaling.md should have:\n" << r.output;
 }
 
 TEST_F(PbrtMpi, TheFirstRankShowsThePage) {
