@@ -16,6 +16,7 @@
 #include "construct/textures.h"
 #include "construct/world_builder.h"
 #include "media/homogeneous.h"
+#include "samplers/halton.h"
 #include "world/endless_medium.h"
 #include "world/media_faults.h"
 
@@ -133,8 +134,12 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
   Construction made;
   made.outfile = film.outfile;
   made.camera = readCamera(scene, {film.settings.resolution, film.diagonal}, diagnostics);
-  made.sampler = readSampler(scene, options, diagnostics);
   const std::optional<IntegratorPlan> integrator = readIntegrator(scene, options, diagnostics);
+  made.sampler = readSampler(scene, options, diagnostics);
+  if (integrator && integrator->samplesPerPixel) {
+    made.sampler = std::make_unique<HaltonSampler>(
+        HaltonSampler::Params{.pixelSamples = *integrator->samplesPerPixel, .seed = options.seed});
+  }
   readAccelerator(scene.accelerator, diagnostics);
 
   Textures textures(scene, diagnostics);
@@ -149,6 +154,7 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
                         [&] { return std::make_unique<Film>(film.settings, *film.filter); });
     checkPixelBounds(scene, *integrator, *made.film);
     made.scene = world.build(integrator->rendersMedia);
+    if (integrator->tracesFromLights) made.scene->prepareEmission();
     CameraMedium cameraMedium;
     if (integrator->rendersMedia) {
       cameraMedium = findCameraMedium(scene, made, world, diagnostics);

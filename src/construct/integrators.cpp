@@ -17,7 +17,9 @@
 #include "integrators/direct/whitted.h"
 #include "integrators/path/path.h"
 #include "integrators/path/vol_path.h"
+#include "integrators/sppm/sppm.h"
 #include "lighting/light_strategy.h"
+#include "media/medium.h"
 #include "scene/param_reader.h"
 
 namespace pbrtmedia {
@@ -100,12 +102,72 @@ IntegratorPlan readAmbientOcclusion(ParamReader& in, const ConstructOptions& opt
           .needsLights = false};
 }
 
+/// --spp, else "iterations", which is also called "numiterations", a sixteenth of it for --quick.
+std::int64_t readIterations(ParamReader& in, const ConstructOptions& options) {
+  const Range range = Range::atLeast(1);
+  int asked = findIntWithin(in, "numiterations", 64, range);
+  asked = findIntWithin(in, "iterations", asked, range);
+  if (options.samplesPerPixel) return *options.samplesPerPixel;
+  return options.quick ? std::max(1, asked / 16) : asked;
+}
+
+/// What photons cannot tell of media, at the Integrator.
+void checkMediaForPhotons(const Scene& scene, const CameraMedium& camera, const SourceLocation& at,
+                          Diagnostics& diagnostics) {
+  for (const Medium* medium : scene.media()) {
+    if (medium->isExponential()) continue;
+    throw SceneError(at,
+                     "Integrator \"sppm\": medium \"" + medium->name() +
+                         "\" has a law other than the exponential, under which what photons find from the "
+                         "light is not what paths find from the camera; \"volpath\" renders it");
+  }
+  if (scene.hasEmissiveMedia() || camera.state().isEmissive()) {
+    diagnostics.warning(
+        at,
+        "Integrator \"sppm\": media that emit send no photons: they are seen, and light what "
+        "paths from the camera meet first, but what is scattered of their light lights nothing "
+        "else; \"volpath\" renders that too");
+  }
+}
+
+IntegratorPlan readSppm(ParamReader& in, const ConstructOptions& options) {
+  SppmParams p;
+  p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
+  const std::int64_t iterations = readIterations(in, options);
+  const int photons = in.findInt("photonsperiteration", -1);
+  if (photons > 0) p.photonsPerIteration = photons;
+  p.radius = in.findFloat("radius", p.radius, Range::positive());
+  if (in.has(ParamKind::Integer, "imagewritefrequency")) {
+    in.diagnostics().warning(
+        in.locationOf(ParamKind::Integer, "imagewritefrequency"),
+        in.context() +
+            ": \"imagewritefrequency\" has no effect: the image is written once; --serve and "
+            "--display-server show it on its way, --checkpoint keeps what there is");
+  }
+  const auto make = [p, at = in.entity().location, diagnostics = &in.diagnostics()](
+                        const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
+    checkMediaForPhotons(scene, cameraMedium, at, *diagnostics);
+    std::unique_ptr<const LightSelector> selector, photonSelector;
+    if (!scene.illuminants().empty())
+      selector = makeLightSelector(LightStrategy::Spatial, scene.illuminants(), scene.bounds());
+    if (!scene.lights().empty()) {
+      const std::span<const Illuminant* const> all = scene.illuminants();
+      photonSelector =
+          makeLightSelector(LightStrategy::Power, all.first(scene.lights().size()), scene.bounds());
+    }
+    return std::make_unique<SppmIntegrator>(scene, p, std::move(selector), std::move(photonSelector),
+                                            std::move(cameraMedium));
+  };
+  return {.make = make, .rendersMedia = true, .samplesPerPixel = iterations, .tracesFromLights = true};
+}
+
 constexpr auto kIntegrators = std::to_array<Plugin<ReadIntegrator>>({
     {"path", readPath},
     {"volpath", readVolPath},
     {"directlighting", readDirectLighting},
     {"whitted", readWhitted},
     {"ambientocclusion", readAmbientOcclusion},
+    {"sppm", readSppm},
 });
 
 /// An integrator of PBRT-v3 that is not here, and the one that converges to the same image.
@@ -121,14 +183,8 @@ constexpr std::array<std::pair<ParamKind, std::string_view>, 5> kOfMlt = {
      {ParamKind::Integer, "mutationsperpixel"},
      {ParamKind::Float, "largestepprobability"},
      {ParamKind::Float, "sigma"}}};
-constexpr std::array<std::pair<ParamKind, std::string_view>, 5> kOfSppm = {
-    {{ParamKind::Integer, "iterations"},
-     {ParamKind::Integer, "numiterations"},
-     {ParamKind::Integer, "photonsperiteration"},
-     {ParamKind::Integer, "imagewritefrequency"},
-     {ParamKind::Float, "radius"}}};
-constexpr std::array<Substitute, 3> kSubstitutes = {
-    {{"bdpt", "volpath", kOfBdpt}, {"mlt", "volpath", kOfMlt}, {"sppm", "path", kOfSppm}}};
+constexpr std::array<Substitute, 2> kSubstitutes = {
+    {{"bdpt", "volpath", kOfBdpt}, {"mlt", "volpath", kOfMlt}}};
 
 /// The substitute for the entity's type, which is told and set; null where none is needed, or there is none.
 const Substitute* substitute(Entity& entity, Diagnostics& diagnostics) {
@@ -171,8 +227,18 @@ std::optional<IntegratorPlan> readIntegrator(SceneDescription& scene, const Cons
   const auto* plugin = findPlugin<ReadIntegrator>(kIntegrators, entity, "Integrator", "", diagnostics);
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(entity, diagnostics, "Integrator \"" + entity.type + "\"");
-  std::vector<std::string_view> pbrtNames = {
-      "maxdepth", "rrthreshold", "lightsamplestrategy", "strategy", "pixelbounds", "nsamples", "cossample"};
+  std::vector<std::string_view> pbrtNames = {"maxdepth",
+                                             "rrthreshold",
+                                             "lightsamplestrategy",
+                                             "strategy",
+                                             "pixelbounds",
+                                             "nsamples",
+                                             "cossample",
+                                             "iterations",
+                                             "numiterations",
+                                             "photonsperiteration",
+                                             "imagewritefrequency",
+                                             "radius"};
   if (instead != nullptr) {
     for (const auto& [kind, name] : instead->parameters) pbrtNames.push_back(name);
   }

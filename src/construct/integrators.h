@@ -19,8 +19,10 @@ struct IntegratorPlan {
   std::function<std::unique_ptr<Integrator>(const Scene&, CameraMedium)> make;
   bool rendersMedia = false;
   std::optional<Bounds2i> pixelBounds{};
-  bool needsLights = true;         ///< without them the image is black
-  bool rendersSubsurface = false;  ///< asks for Material::bssrdf
+  bool needsLights = true;                        ///< without them the image is black
+  bool rendersSubsurface = false;                 ///< asks for Material::bssrdf
+  std::optional<std::int64_t> samplesPerPixel{};  ///< of an integrator that has no use for those of Sampler
+  bool tracesFromLights = false;                  ///< needs Scene::prepareEmission
 };
 
 /// Reads Integrator. Nothing for an unknown type.

@@ -70,6 +70,8 @@ void checkRange(const SampleRange& range, const Construction& scene, bool resume
     throw SceneError({}, option + "there are " + std::to_string(all) +
                              " samples of each pixel; --spp gives the number of all, whatever the range");
   }
+  if (const std::string why = scene.integrator->whyInOnePiece(); !why.empty())
+    throw SceneError({}, option + "the image cannot be rendered in parts: " + why);
   if (scene.outfile.extension() != ".exr") {
     throw SceneError({},
                      option + "the image must be an EXR file, which holds the sums that imgtool merge adds");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "film/layers.h"
@@ -37,6 +38,9 @@ class Integrator {
   /// samples that were taken; a path that is left on its way (leaveIfAbandoned) is none.
   virtual RenderResult render(const Camera& camera, const Sampler& sampler, Film& film,
                               const RenderOptions& options) const = 0;
+  /// Why the samples of an image cannot be taken in ranges apart from each other (RenderOptions::firstSample
+  /// above 0), to stand after "cannot be rendered in parts: "; empty: they can.
+  virtual std::string whyInOnePiece() const { return {}; }
 
  protected:
   explicit Integrator(const Scene& scene) : scene_(scene) {}

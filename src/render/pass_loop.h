@@ -52,6 +52,8 @@ class PassLoop {
   std::uint64_t samplesOfPass() const { return samplesOfPass_; }
   /// Samples that are done, for those who watch. Thread-safe.
   void count(std::uint64_t samples) { samplesDone_.fetch_add(samples, std::memory_order_relaxed); }
+  /// RenderResult::carried so far, to be changed when samples are added to the film.
+  std::vector<double>& carried() { return result_.carried; }
   /// To be called now and then. Thread-safe.
   void reportProgress();
 

@@ -69,6 +69,8 @@ struct RenderResult {
   std::vector<MediumMismatch> mismatches;
   std::vector<ViolationRecord> violations;
   std::vector<LearningRecord> learning;  ///< one for each of the scene's learners
+  /// What the integrator's next pass has to know of those before besides the film. Mostly nothing.
+  std::vector<double> carried;
 };
 
 }  // namespace pbrtmedia

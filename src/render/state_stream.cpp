@@ -77,9 +77,9 @@ template <class Archive, Is<RenderResult> T>
 void transfer(Archive& archive, T& result) {
   auto& [samplesTaken, samplesTotal, completedSamplesPerPixel, counters, seconds, cpuSeconds, passes,
          interrupted, stoppedBy, samplesAbandoned, pixelsTotal, pixelsSampled, dropped, mismatches,
-         violations, learning] = result;
+         violations, learning, carried] = result;
   archive(samplesTaken, samplesTotal, completedSamplesPerPixel, counters, seconds, cpuSeconds,
-          samplesAbandoned, pixelsTotal, pixelsSampled, dropped, mismatches, violations, learning);
+          samplesAbandoned, pixelsTotal, pixelsSampled, dropped, mismatches, violations, learning, carried);
   static_cast<void>(passes);       // of one part
   static_cast<void>(interrupted);  // what goes on is not
   static_cast<void>(stoppedBy);

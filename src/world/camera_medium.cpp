@@ -90,7 +90,7 @@ Verdict askGeometry(const Scene& scene, Point3f origin, float time) {
 }  // namespace
 
 CameraMedium::CameraMedium(const Scene& scene, Point3f origin, float time, std::optional<const Medium*> given)
-    : given_(given) {
+    : place_(origin), given_(given) {
   if (!given && scene.hasMediumBoundaries()) origin_ = origin;
   Verdict found;
   if (scene.hasMediumBoundaries()) found = askGeometry(scene, origin, time);

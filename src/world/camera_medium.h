@@ -26,12 +26,15 @@ class CameraMedium {
   /// Where `state` was found by geometry; rays that start elsewhere may start in other media
   /// (MediaTopology::stateOf). Nothing: camera rays start in it wherever they do.
   std::optional<Point3f> origin() const { return origin_; }
+  /// World position of the camera for which `state` holds.
+  Point3f place() const { return place_; }
   /// The explicit medium, null when there is none.
   const Medium* given() const { return given_.value_or(nullptr); }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   MediumState state_;
+  Point3f place_;
   std::optional<Point3f> origin_;
   std::optional<const Medium*> given_;
   std::vector<std::string> warnings_;

@@ -87,6 +87,16 @@ Rgb MediaStretch::scattering(double t, Vector3f wo, Vector3f wi, RenderCounters&
   return sum;
 }
 
+Rgb MediaStretch::sigmaS(double t, RenderCounters& counters) const {
+  const MediaStretch point(*state_, *ray_, t, t);
+  Rgb sum;
+  for (std::size_t i = 0; i < state_->activeCount(); ++i) {
+    const PlacedMedium m = state_->active(i);
+    sum += m.medium->at(point.segmentIn(m).at(t), counters).sigmaS;
+  }
+  return sum;
+}
+
 FlightControl MediaStretch::control() const {
   FlightControl sum{};
   for (std::size_t i = 0; i < state_->activeCount(); ++i) {

@@ -45,6 +45,8 @@ class MediaStretch {
   /// What the media scatter at `t` from `wi` toward `wo` per length: the sum of sigma_s times the phase
   /// function. `wi` away from the point, as `wo`.
   Rgb scattering(double t, Vector3f wo, Vector3f wi, RenderCounters& counters) const;
+  /// The scattering coefficient of the media together at `t`, 1/length.
+  Rgb sigmaS(double t, RenderCounters& counters) const;
   /// Density that a flight from tMin is taken to have for a collision at `t`, for weights: the mean over the
   /// channels of what the media's controls say together.
   double flightDensity(double t) const;

@@ -41,15 +41,25 @@ bool MediaTopology::isConfined(const Medium* medium) const {
 }
 
 MediumState MediaTopology::stateOf(const Ray& ray, RenderCounters& counters) const {
-  MediumState state = camera_.state();
   const std::optional<Point3f> origin = camera_.origin();
-  if (!origin || ray.o == *origin) return state;
-  const Vector3f offset = ray.o - *origin;
+  return origin ? stateBehind(*origin, ray.o, ray.time, counters) : camera_.state();
+}
+
+MediumState MediaTopology::stateAt(Point3f p, float time, RenderCounters& counters) const {
+  return scene_.hasMediumBoundaries() ? stateBehind(camera_.place(), p, time, counters) : camera_.state();
+}
+
+/// The camera's state behind the boundaries on the line from it to `p`.
+MediumState MediaTopology::stateBehind(Point3f camera, Point3f p, float time,
+                                       RenderCounters& counters) const {
+  MediumState state = camera_.state();
+  if (p == camera) return state;
+  const Vector3f offset = p - camera;
   Ray link;
-  link.o = *origin;
+  link.o = camera;
   link.tMax = length(offset);
   link.d = offset / link.tMax;
-  link.time = ray.time;
+  link.time = time;
   MediaWalk({scene_, this, counters, counters.rays}, state, LineWalk(scene_, link, Exclusions{})).crossAll();
   return state;
 }

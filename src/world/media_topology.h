@@ -28,6 +28,9 @@ class MediaTopology {
   /// Start state of a camera ray. Where geometry decides and the ray does not start where the camera is
   /// (lens, orthographic and moving cameras), the boundaries between the two are crossed.
   MediumState stateOf(const Ray& ray, RenderCounters& counters) const;
+  /// State of any point of space, off all boundaries, at a time of the scene: the boundaries between it and
+  /// the camera are crossed, wherever camera rays start. A walk over all surfaces in between.
+  MediumState stateAt(Point3f p, float time, RenderCounters& counters) const;
 
   /// Changes `state` for going through the surface along `d`. `normal`: geometric, world space. A boundary
   /// whose near side contradicts the state is counted and noted in `log` (may be null); the boundary wins.
@@ -58,6 +61,7 @@ class MediaTopology {
   static void leaveAll(MediumState& state, const SceneHit& hit, const SurfaceInteraction& si,
                        const CoincidentSurfaces& coincident, Vector3f wi, RenderCounters& counters,
                        MismatchLog* log);
+  MediumState stateBehind(Point3f camera, Point3f p, float time, RenderCounters& counters) const;
   static bool reaches(MediumState state, PlacedMedium near, const CoincidentSurfaces& coincident, Vector3f d);
 
   const Scene& scene_;

@@ -71,6 +71,10 @@ Scene::Scene(std::unique_ptr<Parts> parts)
 
 Scene::~Scene() = default;
 
+void Scene::prepareEmission() {
+  for (Light* light : parts_->lights) light->prepareEmission();
+}
+
 std::optional<std::size_t> Scene::lightOf(const PlacedMedium& medium) const {
   const std::optional<std::size_t> number = parts_->mediumLights.find(medium);
   if (!number) return std::nullopt;

@@ -92,6 +92,8 @@ class Scene {
 
   /// The lights that illuminate, in order of addition.
   const std::vector<const Light*>& lights() const { return lights_; }
+  /// Light::prepareEmission of them all; for who makes an integrator that traces from lights.
+  void prepareEmission();
   /// The primitive a light is on, to be left out when its visibility is tested; invalid for other lights.
   PrimitiveId lightTarget(std::size_t light) const {
     return light < lightTargets_.size() ? lightTargets_[light] : PrimitiveId{};

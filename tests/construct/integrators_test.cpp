@@ -42,6 +42,43 @@ TEST(ConstructIntegrator, EveryParameterHasItsEffect) {
              with, rendered);
 }
 
+TEST(ConstructIntegrator, SppmHasItsParameters) {
+  const std::string sppm = "Integrator \"sppm\" \"integer iterations\" 4 \"float radius\" 0.2";
+  expectEffects({{"Integrator \"path\"", sppm},
+                 {sppm, "Integrator \"sppm\" \"integer iterations\" 5 \"float radius\" 0.2"},
+                 {sppm, "Integrator \"sppm\" \"integer iterations\" 4 \"float radius\" 0.3"},
+                 {sppm, sppm + " \"integer maxdepth\" 3"},
+                 {sppm, sppm + " \"integer photonsperiteration\" 500"},
+                 {sppm, sppm + " \"integer pixelbounds\" [ 1 3 1 4 ]"}},
+                with, rendered);
+  expectSame({{sppm, "Integrator \"sppm\" \"integer numiterations\" 4 \"float radius\" 0.2"},
+              {sppm, sppm + " \"integer numiterations\" 9"},
+              {sppm, sppm + " \"integer maxdepth\" 5 \"integer photonsperiteration\" 36"},
+              {sppm, sppm + " \"integer photonsperiteration\" -7"},
+              {"Integrator \"sppm\"", "Integrator \"sppm\" \"integer iterations\" 64 \"float radius\" 1"}},
+             with, rendered);
+  EXPECT_EQ(with(sppm).made->sampler->samplesPerPixel(), 4);
+  const auto iterations = [](const ConstructOptions& options) {
+    return attempt("Integrator \"sppm\"" + kRest, {.build = options}).made->sampler->samplesPerPixel();
+  };
+  EXPECT_EQ(iterations({.quick = true}), 4);
+  EXPECT_EQ(iterations({.samplesPerPixel = 7}), 7);
+  EXPECT_TRUE(with(sppm + " \"integer imagewritefrequency\" 8").warns("written once"));
+}
+
+TEST(ConstructIntegrator, SppmSaysWhatPhotonsCannotTell) {
+  const auto with = [](const std::string& medium) {
+    return attempt("Integrator \"sppm\"" +
+                   std::string(" WorldBegin LightSource \"point\" MakeNamedMedium \"m\" ") + medium +
+                   " Material \"none\" MediumInterface \"m\" \"\" Shape \"sphere\" WorldEnd");
+  };
+  const std::string grid = "\"string type\" \"heterogeneous\" \"float density\" 1 ";
+  EXPECT_TRUE(with(grid).isSilent()) << with(grid).messages();
+  EXPECT_TRUE(with(grid + "\"rgb Le\" [ 1 1 1 ]").warns("media that emit send no photons"));
+  EXPECT_TRUE(with(grid + "\"string law\" \"linear\"").failsWith("a law other than the exponential"))
+      << with(grid + "\"string law\" \"linear\"").messages();
+}
+
 TEST(ConstructIntegrator, SaysWhatIsWrongAndWhere) {
   expectMistakes(
       {{"Integrator \"volpaht\"", "Integrator: unknown type \"volpaht\"; did you mean \"volpath\"?",
@@ -60,6 +97,10 @@ TEST(ConstructIntegrator, SaysWhatIsWrongAndWhere) {
         kTolerated},
        {"Integrator \"ambientocclusion\" \"integer nsamples\" 0", "\"nsamples\": found 0, expected in [1, ",
         "", kTolerated},
+       {"Integrator \"sppm\" \"integer iterations\" 0", "\"iterations\": found 0, expected >= 1", "",
+        kTolerated},
+       {"Integrator \"sppm\" \"float radius\" 0", "\"radius\"", ""},
+       {"Integrator \"sppm\" \"float rrthreshold\" 1", "unknown parameter \"rrthreshold\"", "", kTolerated},
        {"Integrator \"ambientocclusion\" \"integer maxdepth\" 5", "unknown parameter \"maxdepth\"", "",
         kTolerated},
        {"Integrator \"path\" \"integer pixelbounds\" [ 0 1 ]", "found 2 numbers, expected 4: x0 x1 y0 y1", "",

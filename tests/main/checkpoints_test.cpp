@@ -29,11 +29,12 @@ using namespace std::chrono_literals;
 constexpr const char* kAtMost = "timeout -s KILL 120";
 
 std::string fogScene(const std::string& sampler, const std::string& medium, int resolution = 24,
-                     const std::string& outfile = "fog.pfm") {
+                     const std::string& outfile = "fog.pfm",
+                     const std::string& integrator = "\"volpath\" \"integer maxdepth\" 8") {
   const std::string edge = std::to_string(resolution);
   return "Film \"image\" \"integer xresolution\" " + edge + " \"integer yresolution\" " + edge +
-         " \"string filename\" \"" + outfile + "\"\nSampler " + sampler +
-         "\nIntegrator \"volpath\" \"integer maxdepth\" 8\n"
+         " \"string filename\" \"" + outfile + "\"\nSampler " + sampler + "\nIntegrator " + integrator +
+         "\n"
          "LookAt .5 .5 -2  .5 .5 0  0 1 0 Camera \"perspective\" \"float fov\" 35\nWorldBegin\n"
          "LightSource \"infinite\" \"rgb L\" [ .5 .7 1 ]\nLightSource \"point\" \"point from\" [ 2 3 -1 ] "
          "\"rgb "
@@ -91,13 +92,15 @@ struct KilledCase {
   const char* name;
   std::string medium, sampler;
   std::uint64_t seed;
+  std::string integrator = "\"volpath\" \"integer maxdepth\" 8";
 };
 class KilledRender : public Checkpoints, public testing::WithParamInterface<KilledCase> {};
 
 /// Ten kills each, at moments drawn from a seed: five so long after the start (while the scene is read and
 /// built, in the warm-up, in the first passes), five so long after a new checkpoint.
 TEST_P(KilledRender, EndsInTheSameBits) {
-  folder_.write("a.pbrt", fogScene(GetParam().sampler, GetParam().medium, 16));
+  folder_.write("a.pbrt",
+                fogScene(GetParam().sampler, GetParam().medium, 16, "fog.pfm", GetParam().integrator));
   ASSERT_EQ(pbrt("--quiet --nthreads 2 --outfile whole.pfm --stats whole.json a.pbrt").status, 0);
   Rng rng(GetParam().seed);
   int kills = 0;
@@ -128,7 +131,10 @@ TEST_P(KilledRender, EndsInTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Media, KilledRender,
                          testing::Values(KilledCase{"Fog", "", halton(1024), 1},
-                                         KilledCase{"Progressive", kProgressive, random(1024), 2}),
+                                         KilledCase{"Progressive", kProgressive, random(1024), 2},
+                                         KilledCase{
+                                             "Photons", "", halton(1), 3,
+                                             "\"sppm\" \"integer iterations\" 1024 \"float radius\" .1"}),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_F(Checkpoints, AStoppedRenderGoesOnToTheSameImage) {

@@ -122,6 +122,12 @@ TEST_F(SampleRange, SaysWhatARangeMayBe) {
   refused("--samples 3:10", "there are 9 samples of each pixel");
   refused("--samples 0:3 --outfile a.png", "EXR");
   EXPECT_EQ(pbrt("--samples 3:10 --spp 10 a.pbrt").status, 0);
+  std::string photons = scene("random", kFog);
+  photons.replace(photons.find("\"volpath\""), 9, "\"sppm\" \"integer iterations\" 9");
+  folder_.write("a.pbrt", photons);
+  refused("--samples 0:3", "the image cannot be rendered in parts: the radii of an iteration");
+  EXPECT_EQ(pbrt("--spp 2 a.pbrt").status, 0);
+  EXPECT_EQ(image("whole.exr").metadata.at("samples"), "2") << "iterations";
 }
 
 TEST_F(SampleRange, GoesOnFromACheckpointOfItsOwn) {

@@ -46,6 +46,21 @@ TEST_P(Determinism, AnotherSeedGivesAnotherImage) {
   EXPECT_NE(renderText(scene, {.seed = 9}).image.data(), renderText(scene, {.seed = 10}).image.data());
 }
 
+TEST(DeterminismOfPhotons, HoldsOverThreadsAndTiles) {
+  std::string scene = busyScene("random");
+  const std::string volpath = "\"volpath\" \"integer maxdepth\" 6";
+  scene.replace(scene.find(volpath), volpath.size(),
+                "\"sppm\" \"integer maxdepth\" 6 \"integer iterations\" 3 \"float radius\" .3");
+  const Rendered one = renderText(scene, {.seed = 9, .threads = 1, .tileSize = 16});
+  ASSERT_GT(imageMean(one.image), 0.05);
+  for (const RenderSettings& settings : {RenderSettings{9, 2, 16, {}}, RenderSettings{9, 5, 7, {}}}) {
+    const Rendered other = renderText(scene, settings);
+    EXPECT_EQ(one.image.data(), other.image.data()) << settings.threads << " threads";
+    EXPECT_EQ(one.result.counters.rays, other.result.counters.rays);
+  }
+  EXPECT_NE(one.image.data(), renderText(scene, {.seed = 10}).image.data());
+}
+
 INSTANTIATE_TEST_SUITE_P(AllSamplers, Determinism,
                          testing::Values("random", "stratified", "halton", "sobol", "02sequence",
                                          "maxmindist"),

@@ -56,6 +56,7 @@ RenderResult numberedResult() {
   learning.shortfallOfSamples = real();
   learning.shortfall = real();
   r.learning = {learning};
+  r.carried = {real(), real()};
   return r;
 }
 

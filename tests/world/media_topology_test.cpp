@@ -77,6 +77,28 @@ TEST(MediaTopology, NotesMismatchesWithNamesAndPlace) {
   EXPECT_NE(text.find("\"a\""), std::string::npos) << text;
 }
 
+/// Fog "a" in a box, seen from within it by a camera that was told to be in "b".
+TEST(MediaTopology, TellsTheStateOfAnyPointFromTheCameras) {
+  SceneKit kit;
+  const Medium* a = kit.fog("a", Rgb(1), Rgb(2));
+  const Medium* b = kit.fog("b", Rgb(3), Rgb(4), {Mode::Add});
+  kit.builder.addPrimitive(
+      {.shape = kit.box({-1, -1, 0}, {1, 1, 2}), .material = kit.black(), .media = {a, nullptr}});
+  kit.builder.addPrimitive({.shape = kit.box({-2, -2, 1}, {2, 2, 3}), .media = {b, nullptr}});
+  const auto scene = kit.finish();
+  RenderCounters counters;
+  const MediaTopology found(*scene, CameraMedium(*scene, {.1f, .2f, .5f}, 0));
+  EXPECT_EQ(found.stateAt({.1f, .2f, .5f}, 0, counters).describe(), R"("a")");
+  EXPECT_EQ(found.stateAt({.3f, .1f, 1.5f}, 0, counters).describe(), R"("a" + "b")");
+  EXPECT_EQ(found.stateAt({.3f, .1f, 2.5f}, 0, counters).describe(), R"("b")");
+  EXPECT_EQ(found.stateAt({.3f, .1f, 9}, 0, counters).describe(), "vacuum");
+  const MediaTopology given(*scene, CameraMedium(*scene, {.3f, .1f, 9}, 0, a));
+  EXPECT_EQ(given.stateOf(rayOf({.3f, .1f, 10}, {0, 0, 1}), counters).describe(), R"("a")")
+      << "wherever it starts";
+  EXPECT_EQ(given.stateAt({.3f, .1f, 10}, 0, counters).describe(), R"("a")");
+  EXPECT_EQ(given.stateAt({.3f, .1f, 2.5f}, 0, counters).describe(), R"("a" + "b")");
+}
+
 TEST(MediaTopology, KeepsFogUnderAnAddedMediumThatNamesNoOther) {
   SceneKit kit;
   const Medium* fog = kit.fog("fog", Rgb(1), Rgb(0));

@@ -6,7 +6,7 @@
 #include "materials/material.h"
 #include "media/medium.h"
 #include "media/phase/phase_function.h"
-#include "world/hit_coordinates.h"
+#include "world/boundary_planes.h"
 #include "world/subsurface_probe.h"
 
 namespace pbrtmedia {
@@ -29,29 +29,26 @@ constexpr float kSplitFactor = 3;
 /// boundary, heights above it are told far better (ScatterPoint), and paths come out sooner or later.
 constexpr int kMostBouncesInPlace = 1024, kMostBouncesAtBoundary = 1 << 20;
 
-/// The plane of a hit through `p`, its side that `toward` points to.
-BoundaryPlane planeAt(const SceneHit& hit, const SurfaceInteraction& si, Vec3d p, Vector3f toward,
-                      float time) {
-  return {true, p, Vec3d(faceForward(si.n, toward)), coordinatesOf(hit, time)};
-}
+constexpr BsdfFlags kDiffuse = BsdfFlags::Diffuse | BsdfFlags::Reflection | BsdfFlags::Transmission;
 
 /// Whether sampling the BSDF reaches every direction in which it scatters. With a shading normal, or glossy
 /// lobes, some can be reached by light samples only.
 bool samplingCoversBsdf(const Bsdf& bsdf, const SurfaceInteraction& si) {
-  constexpr BsdfFlags kDiffuse = BsdfFlags::Diffuse | BsdfFlags::Reflection | BsdfFlags::Transmission;
   return bsdf.count(kDiffuse) == bsdf.count() && bsdf.shadingNormal() == si.n;
 }
 
 }  // namespace
 
 PathTracer::PathTracer(const PathSetup& setup, const RayDifferential& ray, const MediumState& start,
-                       SampleContext& context)
+                       SampleContext& context, IndirectLight* indirect)
     : setup_(setup),
       context_(context),
+      indirect_(indirect),
       samples_(context),
       counters_(context.counters),
       ray_(ray),
-      state_(start) {}
+      state_(start),
+      lastVertex_(setup.params.maxDepth) {}
 
 Rgb PathTracer::trace() {
   if (!context_.layers.isWanted()) return scatterFrom(flyToEvent());
@@ -165,7 +162,7 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, Event& event) {
   // A path that media have dimmed on its way has little part in the variance. What is seen directly stays
   // exact.
   if (!flight.collided) return !(flight.weight.max() < 1) || bounces_ == 0 || playRoulette(/*inMedium=*/true);
-  medium_ = {mediumPoint(flight.t, stretch.tMax(), hit, start),
+  medium_ = {scatterPointOn(setup_.scene, ray_, flight.t, stretch.tMax(), hit, start, counters_),
              flight.phase,
              flight.t,
              stretch.tMin(),
@@ -209,16 +206,6 @@ void PathTracer::followChannels(const Way& way) {
   }
 }
 
-/// The point at `t` of a stretch that ends at tMax with `hit`, on the right side of the boundaries.
-ScatterPoint PathTracer::mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start) {
-  BoundaryPlane end;
-  if (hit && tMax - t < kNearBoundary * (tMax + maxComponent(abs(ray_.o)))) {
-    end = planeAt(*hit, setup_.scene.surface(*hit, ray_), Vec3d(ray_.o) + tMax * Vec3d(ray_.d), -ray_.d,
-                  ray_.time);
-  }
-  return scatterPoint(ray_, t, start, end, counters_);
-}
-
 SurfaceInteraction PathTracer::surfaceAt(const SceneHit& hit) const {
   SurfaceInteraction si = setup_.scene.surface(hit, ray_);
   if (ray_.hasDifferentials && hit.primitive->material) si.computeDifferentials(ray_);
@@ -232,11 +219,13 @@ bool PathTracer::scatterOnSurface() {
   const Material& material = *surface_.hit.primitive->material;
   Bsdf bsdf = material.bsdf(si, TransportMode::Radiance, /*mergeSpecular=*/true);
   if (layers_ && bounces_ == 0) tellSurface(bsdf);
-  if (material.hasBssrdf()) bsdf.separateSubsurface();
+  if (material.hasBssrdf() && !indirect_) bsdf.separateSubsurface();
   ownsUniformLights_ = samplingCoversBsdf(bsdf, si);
   if (bsdf.count(BsdfFlags::AllButSpecular) > 0) lightSurface(bsdf);
 
-  const BsdfSample sample = bsdf.sample(si.wo, samples_.get2D());
+  const LobeChoice choice = askForIndirectLight(bsdf);
+  BsdfSample sample = bsdf.sample(si.wo, choice.u, choice.lobes);
+  sample.pdf *= choice.share;
   if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
   beta_ *= sample.f * (absDot(sample.wi, bsdf.shadingNormal()) / sample.pdf);
   if (beta_.isBlack()) return false;
@@ -313,6 +302,27 @@ bool PathTracer::leaveSurface(const Bsdf& bsdf, const BsdfSample& sample) {
   return playRoulette(/*inMedium=*/false);
 }
 
+/// Which lobes the path goes on with. Those that are not specular may end it at the next light.
+PathTracer::LobeChoice PathTracer::askForIndirectLight(const Bsdf& bsdf) {
+  LobeChoice choice{.u = samples_.get2D()};
+  if (!indirect_ || bsdf.count(kDiffuse) == 0) return choice;
+  const std::size_t lobes = bsdf.count(), specular = lobes - bsdf.count(BsdfFlags::AllButSpecular);
+  if (specular > 0) {
+    const float share = static_cast<float>(specular) / static_cast<float>(lobes);
+    if (choice.u.x < share) {
+      return {BsdfFlags::Specular | BsdfFlags::Reflection | BsdfFlags::Transmission,
+              share,
+              {std::min(choice.u.x / share, kOneMinusEpsilon), choice.u.y}};
+    }
+    choice.share = 1 - share;
+    choice.u.x = std::min((choice.u.x - share) / choice.share, kOneMinusEpsilon);
+  }
+  choice.lobes = BsdfFlags::AllButSpecular;
+  lastVertex_ = bounces_ + 1;
+  radiance_ += beta_ * indirect_->scatteredOnSurface(surface_.si, bsdf, lastVertex_) / choice.share;
+  return choice;
+}
+
 bool PathTracer::scatterInMedium() {
   ++counters_.mediumScatterings;
   bouncesInPlace_ = medium_.at.p == ray_.o ? bouncesInPlace_ + 1 : 0;
@@ -326,6 +336,12 @@ bool PathTracer::scatterInMedium() {
   // adds a second, independent look through the medium, it pays (variance and time change by like factors).
   ownsUniformLights_ = false;
   lightMedium();
+  if (indirect_) {
+    const Rgb sigmaS = MediaStretch(state_, ray_, medium_.tMin, medium_.tMax).sigmaS(medium_.t, counters_);
+    lastVertex_ = bounces_ + 1;
+    radiance_ +=
+        beta_ * indirect_->scatteredInMedium(medium_.at.p, -ray_.d, *medium_.phase, sigmaS, lastVertex_);
+  }
   const PhaseFunction::Sample sample = medium_.phase->sample(-ray_.d, samples_.get2D());
   if (!(sample.value > 0)) return false;
   isDirect_ = false;

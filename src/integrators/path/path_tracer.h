@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "integrators/path/indirect_light.h"
 #include "integrators/path/path.h"
 #include "integrators/path/path_samples.h"
 #include "materials/bsdf.h"
@@ -30,10 +31,13 @@ struct PathSetup {
 /// continuation is at the same time the other half of direct lighting: what it finds emitting is weighted by
 /// the power heuristic (Veach & Guibas 1995, doi:10.1145/218380.218498). So the last vertex still sends a ray
 /// that looks for emission only, and `maxDepth` counts vertices as in PBRT-v3.
+///
+/// With an IndirectLight the last vertex is the first that scatters in a medium or diffusely on a surface. A
+/// surface that has specular lobes too goes on by these as often as their number says.
 class PathTracer {
  public:
   PathTracer(const PathSetup& setup, const RayDifferential& ray, const MediumState& start,
-             SampleContext& context);
+             SampleContext& context, IndirectLight* indirect = nullptr);
   /// The estimate of the radiance arriving at the ray's origin. Once.
   Rgb trace();
 
@@ -73,7 +77,6 @@ class PathTracer {
   bool passMedium(const Way& way, const SceneHit* hit, Event& event);
   bool splitsChannels() const;
   void followChannels(const Way& way);
-  ScatterPoint mediumPoint(double t, double tMax, const SceneHit* hit, const BoundaryPlane& start);
   void lightStretch(const LitStretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
   void collectMediumEmission(const MediaStretch& stretch);
   void collectEmission(Way& way, const SceneHit& hit, const SurfaceInteraction& si);
@@ -82,6 +85,12 @@ class PathTracer {
   bool scatterBelowSurface();
   bool leaveSurface(const Bsdf& bsdf, const BsdfSample& sample);
   void followMediaBelow(const SceneHit& exit, const SurfaceInteraction& out);
+  struct LobeChoice {
+    BsdfFlags lobes = BsdfFlags::All;
+    float share = 1;  ///< probability
+    Point2f u;        ///< for the sample of their direction
+  };
+  LobeChoice askForIndirectLight(const Bsdf& bsdf);
   bool scatterInMedium();
   void lightSurface(const Bsdf& bsdf);
   void lightMedium();
@@ -101,10 +110,11 @@ class PathTracer {
   float mediumEmissionWeight(const MediumLight& source, std::size_t light) const;
   SurfaceInteraction surfaceAt(const SceneHit& hit) const;
   void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, const Exclusions& start);
-  bool seesOnlyEmission() const { return bounces_ >= setup_.params.maxDepth; }
+  bool seesOnlyEmission() const { return bounces_ >= lastVertex_; }
 
   const PathSetup& setup_;
   SampleContext& context_;
+  IndirectLight* indirect_;  ///< null: the path goes on
   PathSamples samples_;
   RenderCounters& counters_;
 
@@ -120,6 +130,7 @@ class PathTracer {
 
   Rgb beta_{1.0f}, radiance_;
   int bounces_ = 0;
+  int lastVertex_;          ///< number of the last scattering
   int bouncesInPlace_ = 0;  ///< latest scatterings whose flights coordinates could not tell from none
   float etaScale_ = 1;      ///< undoes the radiance scaling of refraction in roulette decisions
   // The vertex the current segment starts on, as multiple importance sampling sees it.

@@ -6,6 +6,7 @@
 #include "integrators/path/path_tracer.h"
 #include "materials/albedo.h"
 #include "materials/bsdf.h"
+#include "world/boundary_planes.h"
 #include "world/medium_light.h"
 
 namespace pbrtmedia {
@@ -125,7 +126,8 @@ void PathTracer::lightStretch(const LitStretch& stretch, const SceneHit* hit, co
   const float u = samples_.get1D(), v = samples_.get1D();
   const std::optional<StretchSample> sample = setup_.singleScattering->sample(stretch, {u, v});
   if (!sample) return;
-  const ScatterPoint at = mediumPoint(sample->t, stretch.media.tMax(), hit, start);
+  const ScatterPoint at =
+      scatterPointOn(setup_.scene, ray_, sample->t, stretch.media.tMax(), hit, start, counters_);
   if (!isFinite(at.p)) return;
   gather(setup_.singleScattering->radiance(stretch, *sample, at, beta_, shadowContext(), context_.stream()),
          bounces_ + 1, RayLayers::Scatterer::Medium);

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <vector>
+
+#include "base/pixel_stream.h"
+#include "integrators/sppm/photon.h"
+#include "lighting/light_selector.h"
+#include "lights/light.h"
+#include "media/phase/phase_function.h"
+#include "samplers/sampler.h"
+#include "world/coincident_surfaces.h"
+#include "world/media_walk.h"
+#include "world/scatter_point.h"
+
+namespace pbrtmedia {
+
+/// What all photons of an iteration share.
+struct PhotonSetup {
+  const Scene& scene;             ///< after Scene::prepareEmission
+  const MediaTopology* media;     ///< null: there are none
+  const LightSelector& selector;  ///< of Scene::lights(), the same everywhere
+  int fewestScatterings = 1;      ///< before a photon is stored; direct light is known better otherwise
+  int mostScatterings = 0;        ///< before the last vertex
+  float time = 0;                 ///< of the scene
+};
+
+/// The photons of some light paths, in their order.
+struct Photons {
+  std::vector<Photon> onSurfaces;
+  std::vector<MediumPhoton> inMedia;
+};
+
+/// One light path from a light to its end, as `PathTracer` is one from the camera. Importance is scattered by
+/// Material::bsdf's adjoint; at each scattering roulette keeps the largest channel of the power at most what
+/// it was. Boundaries without material cost no depth.
+class PhotonTracer {
+ public:
+  /// `sampler`: started; gives the dimensions of the light and of the first scatterings, `rng` the rest.
+  PhotonTracer(const PhotonSetup& setup, Sampler& sampler, Rng& rng, RenderCounters& counters)
+      : setup_(setup), sampler_(sampler), rng_(rng), counters_(counters) {}
+  /// Once.
+  void trace(Photons& out);
+
+ private:
+  struct SurfaceVertex {
+    SceneHit hit;
+    SurfaceInteraction si;
+    CoincidentSurfaces coincident;
+  };
+  struct MediumVertex {
+    ScatterPoint at;
+    const PhaseFunction* phase;
+    Rgb sigmaS;
+  };
+  enum class Event { End, Surface, Medium };
+
+  bool leaveLight();
+  MediumState stateAtLight(const Light& light, const LeSample& sample);
+  Event flyToEvent();
+  bool collides(const MediaWalk& walk, const SceneHit* nearest, const BoundaryPlane& start);
+  bool scatterOnSurface(Photons& out);
+  bool scatterInMedium(Photons& out);
+  bool storesHere() const { return scatterings_ >= setup_.fewestScatterings; }
+  bool mayScatter() const { return scatterings_ < setup_.mostScatterings; }
+  bool playRoulette();
+  void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, const Exclusions& start);
+  Point2f directionSample();
+  MediaWalk::Context walkContext() const { return {setup_.scene, setup_.media, counters_, counters_.rays}; }
+
+  const PhotonSetup& setup_;
+  Sampler& sampler_;
+  Rng& rng_;
+  RenderCounters& counters_;
+
+  Ray ray_;
+  Exclusions rayStart_;
+  std::uint32_t hider_ = PrimitiveId::kNone;  ///< Scene::hiderOf the light; of the first segment
+  BoundaryPlane startPlane_;
+  ScatterPoint from_;  ///< where the ray starts, if in a medium
+  MediumState state_;
+  Rgb power_;
+  float strength_ = 0;  ///< largest channel of the power where the ray starts
+  int scatterings_ = 0;
+  int inPlace_ = 0;  ///< latest scatterings whose flights coordinates could not tell from none
+  SurfaceVertex surface_;
+  MediumVertex medium_{};
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// Photons bring what paths find: `sppm` with small radii makes the images of `volpath`, whatever the lights,
+// the surfaces and the media. Kernels blur, so means may differ by a little that noise does not explain.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/compare_images.h"
+#include "support/render_scene.h"
+
+namespace pbrtmedia::test {
+namespace {
+
+constexpr int kSeeds = 8;
+constexpr double kMostBias = .01;  ///< of small radii
+
+struct SppmScene {
+  const char* name;
+  std::string world;
+  std::string options;  ///< before WorldBegin
+  friend std::ostream& operator<<(std::ostream& os, const SppmScene& s) { return os << s.name; }
+};
+
+const std::string kRoom =
+    "AttributeBegin Material \"matte\" \"rgb Kd\" [ .7 .6 .5 ]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 -1 0 1 -1 0 1 1 0 -1 1 0 ]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 1 0 1 1 0 1 1 2 -1 1 2 ]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 -1 0 -1 1 0 -1 1 2 -1 -1 2 "
+    "]\n"
+    "AttributeEnd\n";
+const std::string kPoint = "LightSource \"point\" \"point from\" [ .3 -.4 1.9 ] \"rgb I\" [ 3 2.5 2 ]\n";
+const std::string kSpot =
+    "LightSource \"spot\" \"point from\" [ .3 -.4 1.9 ] \"point to\" [ 0 .2 0 ] \"rgb I\" [ 8 7 6 ]\n";
+const std::string kSun =
+    "LightSource \"distant\" \"point from\" [ .3 -.4 1 ] \"point to\" [ 0 0 0 ] \"rgb L\" [ 3 2.5 2 ]\n";
+const std::string kSky = "LightSource \"infinite\" \"rgb L\" [ .4 .5 .6 ]\n";
+const std::string kLamp =
+    "AttributeBegin Material \"matte\" \"rgb Kd\" [ .3 .3 .3 ] AreaLightSource \"diffuse\" \"rgb L\" [ 9 7 5 "
+    "]\n"
+    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -.35 -.35 1.98 -.35 .35 1.98 "
+    ".35 "
+    ".35 1.98 .35 -.35 1.98 ] AttributeEnd\n";
+const std::string kFog =
+    "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .2 .3 .4 ] \"rgb sigma_s\" [ 1 "
+    "1.5 2 "
+    "] \"float g\" .4\n";
+const std::string kSmoke =
+    "MakeNamedMedium \"m\" \"string type\" \"heterogeneous\" \"rgb sigma_a\" [ .5 .5 .5 ] \"rgb sigma_s\" [ "
+    "3 3 3 "
+    "] \"float g\" .2 \"integer nx\" 2 \"integer ny\" 2 \"integer nz\" 3 \"point p0\" [ -.8 -.8 .2 ] \"point "
+    "p1\" [ "
+    ".8 .8 1.8 ] \"float density\" [ 1 0 .5 .2 0 1 .3 .7 .1 .9 .4 0 ]\n";
+std::string ballOf(const std::string& material, double radius) {
+  return "AttributeBegin " + material + " Translate 0 0 1 Shape \"sphere\" \"float radius\" " +
+         std::to_string(radius) + " AttributeEnd\n";
+}
+const std::string kInFog = "Material \"none\" MediumInterface \"m\" \"\"";
+
+std::string sceneOf(const SppmScene& s, const std::string& integrator, int spp) {
+  return "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32\nPixelFilter \"gaussian\" "
+         "\"float xwidth\" 1 "
+         "\"float ywidth\" 1\nSampler \"halton\" \"integer pixelsamples\" " +
+         std::to_string(spp) + "\nIntegrator " + integrator + '\n' + s.options +
+         "LookAt 0 -4.2 1  0 0 1  0 0 1\nCamera \"perspective\" \"float fov\" 34\nWorldBegin\n" + s.world +
+         "WorldEnd\n";
+}
+std::string sppm(double radius) {
+  return "\"sppm\" \"integer maxdepth\" 4 \"integer iterations\" 8 \"integer photonsperiteration\" 16000 "
+         "\"float "
+         "radius\" " +
+         std::to_string(radius);
+}
+
+/// Green, of the whole image.
+RunningStats means(const std::string& text, std::uint64_t firstSeed) {
+  RunningStats all;
+  for (std::uint64_t seed = firstSeed; seed < firstSeed + kSeeds; ++seed)
+    all.add(imageMean(renderText(text, {.seed = seed}).image, 1));
+  return all;
+}
+
+class SppmAgreement : public testing::TestWithParam<SppmScene> {};
+
+TEST_P(SppmAgreement, WithVolpath) {
+  const RunningStats truth = means(sceneOf(GetParam(), "\"volpath\" \"integer maxdepth\" 4", 64), 1);
+  const ZTest test = zTest(means(sceneOf(GetParam(), sppm(.06), 8), 100), truth);
+  EXPECT_LT(std::abs(test.mean - truth.mean()),
+            kMostBias * truth.mean() + kMaxAbsZ * std::hypot(test.standardError, truth.standardError()))
+      << test;
+  EXPECT_TRUE(test.sees(.05)) << test;
+  std::printf("%-14s %+.3f %% (%.3f %%)\n", GetParam().name, 100 * (test.mean / truth.mean() - 1),
+              100 * std::hypot(test.standardError, truth.standardError()) / truth.mean());
+  // Negative control: what photons bring is no small part.
+  const RunningStats single = means(sceneOf(GetParam(), "\"volpath\" \"integer maxdepth\" 1", 16), 1);
+  EXPECT_LT(single.mean(), .95 * truth.mean());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, SppmAgreement,
+    testing::Values(
+        SppmScene{"surfaces", kRoom + kPoint, ""},
+        SppmScene{"fog", kFog + kRoom + ballOf(kInFog, .7) + kPoint, ""},
+        SppmScene{"smoke", kSmoke + kRoom + ballOf(kInFog, .9) + kSpot, ""},
+        SppmScene{"fogAlone", kFog + ballOf(kInFog, .9) + kPoint, ""},
+        SppmScene{"sky", kFog + kRoom + ballOf(kInFog, .7) + kSky, ""},
+        SppmScene{"sun", kFog + kRoom + ballOf(kInFog, .7) + kSun, ""},
+        SppmScene{"lamp", kFog + kRoom + ballOf(kInFog, .7) + kLamp, ""},
+        SppmScene{"lampInFog",
+                  kFog + kRoom + ballOf(kInFog, .7) +
+                      "AttributeBegin Material \"none\" MediumInterface \"m\" \"m\" AreaLightSource "
+                      "\"diffuse\" \"rgb L\" [ 20 18 9 ] Translate 0 0 1 Shape \"sphere\" \"float radius\" "
+                      ".1 AttributeEnd\n",
+                  ""},
+        SppmScene{"cameraInFog", "MediumInterface \"\" \"m\"\n" + kRoom + kSpot,
+                  kFog + "MediumInterface \"\" \"m\"\n"},
+        SppmScene{"glassAroundFog",
+                  kFog + kRoom + ballOf("Material \"glass\" MediumInterface \"m\" \"\"", .6) + kLamp, ""},
+        SppmScene{"mixedLobes",
+                  kRoom +
+                      ballOf("Material \"uber\" \"rgb Kd\" [ .3 .3 .3 ] \"rgb Kr\" [ .4 .4 .4 ] \"rgb Ks\" [ "
+                             ".1 .1 .1 ]",
+                             .6) +
+                      kPoint,
+                  ""},
+        SppmScene{"overlap",
+                  "MakeNamedMedium \"n\" \"string type\" \"homogeneous\" \"string overlap\" \"add\" \"rgb "
+                  "sigma_a\" [ .1 .1 .1 ] "
+                  "\"rgb sigma_s\" [ 1 1 1 ]\n" +
+                      kFog + kRoom + ballOf(kInFog, .7) +
+                      "AttributeBegin Material \"none\" MediumInterface \"n\" \"\" Translate .3 0 1.2 Shape "
+                      "\"sphere\" \"float radius\" .6 AttributeEnd\n" +
+                      kPoint,
+                  ""}),
+    [](const auto& value) { return std::string(value.param.name); });
+
+double squaredDistance(const Image& a, const Image& b) {
+  double sum = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      const Rgb d = a.rgb(x, y) - b.rgb(x, y);
+      sum += double{d.r} * double{d.r} + double{d.g} * double{d.g} + double{d.b} * double{d.b};
+    }
+  }
+  return sum;
+}
+
+/// As many iterations and photons as PBRT-v3's image has. The truth is its path tracer's, of the same room:
+/// what either lacks of it is noise and blur, of which we must not have more.
+TEST(SppmParity, IsNoFurtherFromTheTruthThanPbrts) {
+  const auto folder = pbrtSceneFolder();
+  if (!folder) GTEST_SKIP() << "the PBRT-v3 scenes are not beside this checkout";
+  const Image theirs = readImage(*folder / "reference" / "own-sppm-room.exr"),
+              truth = readImage(*folder / "reference" / "own-path-room.exr");
+  const Image ours = renderFile(*folder / "own-sppm-room.pbrt", {.seed = 1}).image;
+  const std::vector<Image> images = {ours};
+  const double ratio = squaredDistance(ours, truth) / squaredDistance(theirs, truth);
+  const MeanDistance toTheirs = meanDistance(images, theirs), toTruth = meanDistance(images, truth);
+  std::printf(
+      "mean %+.4f %% of PBRT-v3's, %+.4f %% of the truth; squared distance from it %.3f of PBRT-v3's\n",
+      100 * toTheirs.difference, 100 * toTruth.difference, ratio);
+  EXPECT_LT(std::abs(toTheirs.difference), .005);
+  EXPECT_LT(std::abs(toTruth.difference), .005);
+  EXPECT_LT(ratio, 1);
+}
+
+TEST(SppmBias, IsThatOfTheRadius) {
+  const SppmScene scene{"fog", kFog + kRoom + ballOf(kInFog, .7) + kPoint, ""};
+  const RunningStats truth = means(sceneOf(scene, "\"volpath\" \"integer maxdepth\" 4", 64), 1);
+  const ZTest wide = zTest(means(sceneOf(scene, sppm(.8), 8), 100), truth);
+  EXPECT_GT(std::abs(wide.z()), kMaxAbsZ) << wide;
+  EXPECT_GT(std::abs(wide.mean / truth.mean() - 1), 3 * kMostBias) << wide;
+}
+
+/// A shutter open while the lamp's shade moves: photons and camera rays of an iteration are at one time.
+TEST(SppmMotion, IsThatOfVolpath) {
+  const std::string moving =
+      "AttributeBegin Material \"matte\" \"rgb Kd\" [ .8 .8 .8 ] ActiveTransform EndTime Translate .9 0 0 "
+      "ActiveTransform All Translate -.4 0 .5 Shape \"sphere\" \"float radius\" .4 AttributeEnd\n";
+  const SppmScene scene{"moving", kRoom + moving + kPoint, "TransformTimes 0 1\n"};
+  const RunningStats truth = means(sceneOf(scene, "\"volpath\" \"integer maxdepth\" 4", 64), 1);
+  const std::string text = sceneOf(scene,
+                                   "\"sppm\" \"integer maxdepth\" 4 \"integer iterations\" 32 \"integer "
+                                   "photonsperiteration\" 4000 \"float radius\" .06",
+                                   8);
+  const ZTest test = zTest(means(text, 100), truth);
+  EXPECT_LT(std::abs(test.mean - truth.mean()),
+            kMostBias * truth.mean() + kMaxAbsZ * std::hypot(test.standardError, truth.standardError()))
+      << test;
+}
+
+}  // namespace
+}  // namespace pbrtmedia::test
