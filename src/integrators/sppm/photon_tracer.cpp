@@ -66,7 +66,7 @@ MediumState PhotonTracer::stateAtLight(const Light& light, const LeSample& sampl
   if (!scene.hasMediumBoundaries() && setup_.media->camera().state().isVacuum()) return {};
   const std::optional<SceneHit> first = scene.closest(ray_, 0, rayStart_, counters_.rays);
   const float half = first ? first->t() / 2 : std::max(1.0f, scene.largestCoordinate());
-  const MediumState state = setup_.media->stateAt(sample.ray.at(half), setup_.time, counters_);
+  MediumState state = setup_.media->stateAt(sample.ray.at(half), setup_.time, counters_);
   const bool isFromInfinity = light.isInfinite() || (light.isDelta() && !light.deltaPosition());
   if (!isFromInfinity || state.isVacuum()) return state;
   Ray back = ray_;
