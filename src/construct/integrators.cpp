@@ -13,6 +13,7 @@
 #include "construct/plugins.h"
 #include "construct/tolerance.h"
 #include "integrators/ambientocclusion/ambient_occlusion.h"
+#include "integrators/bdpt/bdpt.h"
 #include "integrators/direct/direct_lighting.h"
 #include "integrators/direct/whitted.h"
 #include "integrators/path/path.h"
@@ -31,27 +32,37 @@ constexpr int kMaxDepth = 1 << 30;
 /// Of one camera ray; all of them are held in memory.
 constexpr int kMaxOcclusionSamples = 1 << 20;
 
+/// `fallback`: number of the default.
+std::string_view readLightSampleStrategy(ParamReader& in, std::size_t fallback) {
+  static constexpr std::array<std::string_view, 3> kStrategies = {"uniform", "power", "spatial"};
+  return kStrategies[in.findChoice("lightsamplestrategy", kStrategies, fallback)];
+}
+
 PathParams readPathParams(ParamReader& in) {
   PathParams p;
   p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   p.rrThreshold = findFloatWithin(in, "rrthreshold", p.rrThreshold, Range::nonNegative());
-  constexpr std::array<std::string_view, 3> kStrategies = {"uniform", "power", "spatial"};
-  p.lightSampleStrategy = kStrategies[in.findChoice("lightsamplestrategy", kStrategies, 2)];
+  p.lightSampleStrategy = readLightSampleStrategy(in, 2);
   return p;
 }
 
 /// Null where there are no lights.
 std::unique_ptr<const LightSelector> selectorFor(std::span<const Illuminant* const> lights,
-                                                 const Scene& scene, const PathParams& p) {
+                                                 const Scene& scene, std::string_view strategy) {
   if (lights.empty()) return nullptr;
-  return makeLightSelector(lightStrategyOfName(p.lightSampleStrategy).value(), lights, scene.bounds());
+  return makeLightSelector(lightStrategyOfName(strategy).value(), lights, scene.bounds());
+}
+
+/// Those of a scene, without its media.
+std::span<const Illuminant* const> lightsOf(const Scene& scene) {
+  return std::span(scene.illuminants()).first(scene.lights().size());
 }
 
 IntegratorPlan readPath(ParamReader& in, const ConstructOptions&) {
   const PathParams p = readPathParams(in);
   return {[=](const Scene& scene, const CameraMedium&) -> std::unique_ptr<Integrator> {
-            const std::span lights = std::span(scene.illuminants()).first(scene.lights().size());
-            return std::make_unique<PathIntegrator>(scene, p, selectorFor(lights, scene, p));
+            return std::make_unique<PathIntegrator>(
+                scene, p, selectorFor(lightsOf(scene), scene, p.lightSampleStrategy));
           },
           false, std::nullopt, /*needsLights=*/true, /*rendersSubsurface=*/true};
 }
@@ -65,8 +76,9 @@ IntegratorPlan readVolPath(ParamReader& in, const ConstructOptions&) {
   constexpr std::array<std::string_view, 3> kChannels = {"auto", "shared", "split"};
   p.channelSampling = findOwnEnum(in, "channelsampling", kChannels, ChannelSampling::Auto);
   return {[=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
-            return std::make_unique<VolPathIntegrator>(scene, p, selectorFor(scene.illuminants(), scene, p),
-                                                       std::move(cameraMedium));
+            return std::make_unique<VolPathIntegrator>(
+                scene, p, selectorFor(scene.illuminants(), scene, p.lightSampleStrategy),
+                std::move(cameraMedium));
           },
           true, std::nullopt, /*needsLights=*/true, /*rendersSubsurface=*/true};
 }
@@ -161,12 +173,28 @@ IntegratorPlan readSppm(ParamReader& in, const ConstructOptions& options) {
   return {.make = make, .rendersMedia = true, .samplesPerPixel = iterations, .tracesFromLights = true};
 }
 
+IntegratorPlan readBdpt(ParamReader& in, const ConstructOptions&) {
+  BdptParams p;
+  p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
+  const std::string_view strategy = readLightSampleStrategy(in, 1);
+  // Light subpaths start before anybody knows where they are looked at from.
+  const std::string_view starts = strategy == "uniform" ? "uniform" : "power";
+  return {.make = [=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
+            return std::make_unique<BdptIntegrator>(scene, p, selectorFor(lightsOf(scene), scene, strategy),
+                                                    selectorFor(lightsOf(scene), scene, starts),
+                                                    std::move(cameraMedium));
+          },
+          .rendersMedia = true,
+          .tracesFromLights = true};
+}
+
 constexpr auto kIntegrators = std::to_array<Plugin<ReadIntegrator>>({
     {"path", readPath},
     {"volpath", readVolPath},
     {"directlighting", readDirectLighting},
     {"whitted", readWhitted},
     {"ambientocclusion", readAmbientOcclusion},
+    {"bdpt", readBdpt},
     {"sppm", readSppm},
 });
 
@@ -175,16 +203,13 @@ struct Substitute {
   std::string_view name, taken;
   std::span<const std::pair<ParamKind, std::string_view>> parameters;  ///< that change its noise only
 };
-constexpr std::array<std::pair<ParamKind, std::string_view>, 2> kOfBdpt = {
-    {{ParamKind::Bool, "visualizestrategies"}, {ParamKind::Bool, "visualizeweights"}}};
 constexpr std::array<std::pair<ParamKind, std::string_view>, 5> kOfMlt = {
     {{ParamKind::Integer, "bootstrapsamples"},
      {ParamKind::Integer, "chains"},
      {ParamKind::Integer, "mutationsperpixel"},
      {ParamKind::Float, "largestepprobability"},
      {ParamKind::Float, "sigma"}}};
-constexpr std::array<Substitute, 2> kSubstitutes = {
-    {{"bdpt", "volpath", kOfBdpt}, {"mlt", "volpath", kOfMlt}}};
+constexpr std::array<Substitute, 1> kSubstitutes = {{{"mlt", "volpath", kOfMlt}}};
 
 /// The substitute for the entity's type, which is told and set; null where none is needed, or there is none.
 const Substitute* substitute(Entity& entity, Diagnostics& diagnostics) {

@@ -23,6 +23,7 @@ LightSample DiffuseAreaLight::sample(Point3f reference, Point2f u) const {
   s.wi = Vector3f(d / r);
   s.distance = static_cast<float>(r);
   s.pdf = onShape.pdf;
+  s.n = onShape.n;
   s.radiance = emitted(emittingNormal(onShape.n), -s.wi);
   return s;
 }

@@ -21,6 +21,7 @@ struct LightSample {
   float distance =
       kInfinity;  ///< world length of the shadow segment; infinity for distant and infinite lights
   float pdf = 0;  ///< solid angle; 1 for delta lights; 0: no sample
+  Normal3f n{};   ///< of hits on the light there, where it is a surface
 };
 
 /// Densities of a ray that a light sends out.

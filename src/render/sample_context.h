@@ -8,6 +8,7 @@
 
 namespace pbrtmedia {
 
+class Camera;
 struct MismatchLog;
 class SplatBuffer;
 
@@ -18,10 +19,12 @@ struct SampleContext {
   RenderCounters& counters;
   MismatchLog* mismatches = nullptr;  ///< where inconsistent boundaries are noted; null: nowhere
   /// Where integrators of SamplingIntegrator::makesSplats put what light paths bring to other pixels; null
-  /// for the others.
+  /// for the others, and where nobody wants them.
   SplatBuffer* splats = nullptr;
   LayerSample layers{};          ///< what the film wants to know besides radiance; nearly always nothing
   PixelSample pixelSample = {};  ///< what `rng` serves, for patterns over the samples of a pixel
+
+  const Camera* camera = nullptr;  ///< whose sample it is, for integrators that look for it from the scene
 
   /// What media draw from.
   PixelStream stream() { return {rng, pixelSample}; }

@@ -51,7 +51,8 @@ Rgb renderSample(const Camera& camera, Sampler& sampler, const SamplingIntegrato
                                             static_cast<std::uint32_t>(pixel.y), kPatternTag),
                                 static_cast<std::uint64_t>(sample),
                                 static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel, 0)), 0};
-  SampleContext context{sampler, rng, counters, output.mismatches, output.splats, output.layers, pixelSample};
+  SampleContext context{sampler,       rng,           counters,    output.mismatches,
+                        output.splats, output.layers, pixelSample, &camera};
   const Rgb radiance = weighted.weight * integrator.radiance(weighted.ray, context);
   output.layers.scaleRadiance(weighted.weight);
   return radiance;

@@ -47,6 +47,8 @@ class MediaStretch {
   Rgb scattering(double t, Vector3f wo, Vector3f wi, RenderCounters& counters) const;
   /// The scattering coefficient of the media together at `t`, 1/length.
   Rgb sigmaS(double t, RenderCounters& counters) const;
+  /// What the media's controls say together: optical depth of the stretch, extinction at its end.
+  FlightControl control() const;
   /// Density that a flight from tMin is taken to have for a collision at `t`, for weights: the mean over the
   /// channels of what the media's controls say together.
   double flightDensity(double t) const;
@@ -59,7 +61,6 @@ class MediaStretch {
  private:
   /// In the space of an active medium's definition.
   Segment segmentIn(const PlacedMedium& m) const;
-  FlightControl control() const;
   MediumFlight nearestOfFlights(Rgb throughput, PixelStream random, RenderCounters& counters) const;
 
   const MediumState* state_;

@@ -39,6 +39,23 @@ struct ScatterPoint {
 ScatterPoint scatterPoint(const Ray& ray, double t, const BoundaryPlane& start, const BoundaryPlane& end,
                           RenderCounters& counters);
 
+/// Counts the latest scatterings of a path whose flights coordinates could not tell from none.
+class ScatteringsInPlace {
+ public:
+  /// Whether a path that flew from `from` to `at` would scatter there for ever: after so many in one place
+  /// free flights are far shorter than coordinates can tell (were they as long as a hundredth of that, one in
+  /// 1e50 would stay). Close to a boundary, heights above it are told far better, and paths come out sooner
+  /// or later.
+  bool isStuck(Point3f from, const ScatterPoint& at) {
+    count_ = at.p == from ? count_ + 1 : 0;
+    return count_ > (at.near.isValid ? kMostAtBoundary : kMost);
+  }
+
+ private:
+  static constexpr int kMost = 1024, kMostAtBoundary = 1 << 20;
+  int count_ = 0;
+};
+
 /// A scattering closer to the end of its segment than this share of the largest coordinate is looked at by
 /// `scatterPoint`; farther away only a boundary met at less than about 1e-3 radians could be within rounding.
 constexpr double kNearBoundary = 1e-3;

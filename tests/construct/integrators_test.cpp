@@ -22,7 +22,7 @@ TEST(ConstructIntegrator, EveryParameterHasItsEffect) {
   std::vector<Effect> effects{
       {"Integrator \"directlighting\"", "Integrator \"directlighting\" \"string strategy\" \"one\""},
       {"Integrator \"path\"", "Integrator \"whitted\""}};
-  for (const std::string type : {"path", "volpath", "directlighting", "whitted"}) {
+  for (const std::string type : {"path", "volpath", "directlighting", "whitted", "bdpt"}) {
     const std::string integrator = "Integrator \"" + type + '"';
     effects.push_back({integrator, integrator + " \"integer maxdepth\" 1"});
     effects.push_back({integrator, integrator + " \"integer pixelbounds\" [ 1 3 1 4 ]"});
@@ -32,6 +32,11 @@ TEST(ConstructIntegrator, EveryParameterHasItsEffect) {
     effects.push_back({deep, deep + " \"float rrthreshold\" 0"});
     effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"uniform\""});
     effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"power\""});
+  }
+  for (const char* strategy : {"uniform", "spatial"}) {
+    effects.push_back(
+        {"Integrator \"bdpt\"",
+         std::string("Integrator \"bdpt\" \"string lightsamplestrategy\" \"") + strategy + '"'});
   }
   expectEffects(effects, with, rendered);
   expectSame({{"",

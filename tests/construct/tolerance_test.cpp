@@ -202,9 +202,7 @@ TEST(Tolerance, NumbersBeyondTheirRangeAreMovedAsInPbrt) {
 TEST(Tolerance, IntegratorsOfTheSameImageTakeThePlaceOfThoseThatAreNotThere) {
   const std::string world = "LightSource \"infinite\" \"rgb L\" [ .5 .5 .5 ] " + kBall;
   for (const auto& [absent, taken] :
-       {std::pair{"\"bdpt\" \"integer maxdepth\" 3 \"bool visualizeweights\" \"false\"",
-                  "\"volpath\" \"integer maxdepth\" 3"},
-        std::pair{"\"mlt\" \"integer chains\" 9 \"float sigma\" .1", "\"volpath\""}}) {
+       {std::pair{"\"mlt\" \"integer chains\" 9 \"float sigma\" .1", "\"volpath\""}}) {
     const Attempt a = attemptWorld(world, {}, std::string("Integrator ") + absent),
                   b = attemptWorld(world, {}, std::string("Integrator ") + taken);
     ASSERT_TRUE(a.warns("takes its place, which converges to the same image")) << a.messages();

@@ -57,7 +57,10 @@ constexpr ParityScene kScenes[] = {{"smoke", 16, 16},
                                    {"own-curve-cylinder", 16, 64},
                                    {"own-realistic", 16, 256},
                                    {"own-path-room", 16, 64},
-                                   {"own-volpath-grid", 16, 64}};
+                                   {"own-volpath-grid", 16, 64},
+                                   {"own-bdpt-room", 16, 16},
+                                   {"own-bdpt-fog", 16, 16},
+                                   {"own-bdpt-grid", 8, 16}};
 
 std::ostream& operator<<(std::ostream& os, const ParityScene& scene) { return os << scene.name; }
 

@@ -24,11 +24,6 @@ constexpr float kMediumRouletteWeight = 0.03f;
 /// 2.6 times one; the variance of one reaches that at factors of 2.5 to 4 (cubes of optical depth 2 to 40).
 constexpr float kSplitFactor = 3;
 
-/// After so many scatterings in one place free flights are far shorter than coordinates can tell (were they
-/// as long as a hundredth of that, one in 1e50 would stay): the path would scatter there for ever. Close to a
-/// boundary, heights above it are told far better (ScatterPoint), and paths come out sooner or later.
-constexpr int kMostBouncesInPlace = 1024, kMostBouncesAtBoundary = 1 << 20;
-
 constexpr BsdfFlags kDiffuse = BsdfFlags::Diffuse | BsdfFlags::Reflection | BsdfFlags::Transmission;
 
 /// Whether sampling the BSDF reaches every direction in which it scatters. With a shading normal, or glossy
@@ -325,8 +320,7 @@ PathTracer::LobeChoice PathTracer::askForIndirectLight(const Bsdf& bsdf) {
 
 bool PathTracer::scatterInMedium() {
   ++counters_.mediumScatterings;
-  bouncesInPlace_ = medium_.at.p == ray_.o ? bouncesInPlace_ + 1 : 0;
-  if (bouncesInPlace_ > (medium_.at.near.isValid ? kMostBouncesAtBoundary : kMostBouncesInPlace)) {
+  if (inPlace_.isStuck(ray_.o, medium_.at)) {
     ++counters_.stuckPaths;
     return false;
   }

@@ -130,9 +130,9 @@ class PathTracer {
 
   Rgb beta_{1.0f}, radiance_;
   int bounces_ = 0;
-  int lastVertex_;          ///< number of the last scattering
-  int bouncesInPlace_ = 0;  ///< latest scatterings whose flights coordinates could not tell from none
-  float etaScale_ = 1;      ///< undoes the radiance scaling of refraction in roulette decisions
+  int lastVertex_;  ///< number of the last scattering
+  ScatteringsInPlace inPlace_;
+  float etaScale_ = 1;  ///< undoes the radiance scaling of refraction in roulette decisions
   // The vertex the current segment starts on, as multiple importance sampling sees it.
   bool isDirect_ = true;            ///< camera or perfect specular vertex: emission counts fully
   float directionPdf_ = 0;          ///< solid-angle density of the segment's direction

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#include "integrators/bdpt/bdpt.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+
+#include "cameras/camera.h"
+#include "film/splat_buffer.h"
+#include "integrators/bdpt/path_connector.h"
+#include "integrators/bdpt/subpath_tracer.h"
+
+namespace pbrtmedia {
+namespace {
+
+bool areExponential(const Scene& scene) {
+  return std::ranges::all_of(scene.media(), [](const Medium* m) { return m->isExponential(); });
+}
+
+/// Whether there is vacuum far out.
+bool isConfined(const Scene& scene, const MediaTopology& media) {
+  return !media.camera().given() &&
+         std::ranges::all_of(scene.media(), [&](const Medium* m) { return media.isConfined(m); });
+}
+
+}  // namespace
+
+BdptIntegrator::BdptIntegrator(const Scene& scene, const BdptParams& params,
+                               std::unique_ptr<const LightSelector> selector,
+                               std::unique_ptr<const LightSelector> startSelector, CameraMedium cameraMedium)
+    : SamplingIntegrator(scene),
+      params_(params),
+      selector_(std::move(selector)),
+      startSelector_(areExponential(scene) ? std::move(startSelector) : nullptr),
+      media_(scene, std::move(cameraMedium)),
+      // Without media and shadowalpha the yes/no occlusion query answers the same and is faster.
+      setup_{scene,
+             params.maxDepth,
+             selector_.get(),
+             startSelector_.get(),
+             media_.hasMedia() || scene.hasShadowAlpha() ? &media_ : nullptr,
+             media_.hasEmission(),
+             {selector_.get(), startSelector_.get(), isConfined(scene, media_)}} {
+  CHECK(selector_ || scene.lights().empty()) << "lights need a selector";
+}
+BdptIntegrator::~BdptIntegrator() = default;
+
+bool BdptIntegrator::takes(std::size_t s, std::size_t t) const {
+  return !params_.leftOut ||
+         !(static_cast<int>(s) == params_.leftOut->s && static_cast<int>(t) == params_.leftOut->t);
+}
+
+Rgb BdptIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
+  const Camera& camera = *context.camera;
+  const MediumState start = media_.stateOf(ray, context.counters);
+  const bool isSeen = setup_.startSelector && camera.we(ray).value > 0;
+  FoundRadiance found;
+  const Subpath fromCamera =
+      SubpathTracer(setup_, context).fromCamera(ray, start, isSeen, camera.pdfWe(ray), found);
+  Rgb radiance;
+  for (std::size_t depth = 0; depth < found.size(); ++depth) {
+    if (takes(0, depth + 2)) radiance += found[depth];
+  }
+  const std::optional<Subpath> fromLight = SubpathTracer(setup_, context).fromLight(ray, start);
+  PathConnector connector(setup_, context, ray.time);
+  const auto uniform2D = [&] {
+    const float x = context.rng.uniform();
+    return Point2f{x, context.rng.uniform()};
+  };
+  const auto mostScatterings = static_cast<std::size_t>(params_.maxDepth);
+  for (std::size_t j = 0; j < fromCamera.vertices.size(); ++j) {
+    if (!fromCamera.vertices[j].isConnectible()) continue;
+    const bool isSampled = j < SubpathTracer::kSampledVertices;
+    const float uLight = isSampled ? context.sampler.get1D() : context.rng.uniform();
+    const Point2f u = isSampled ? context.sampler.get2D() : uniform2D();
+    if (takes(1, j + 2)) radiance += connector.lookForLight(fromCamera, j, uLight, u).weighted();
+    if (!fromLight) continue;
+    for (std::size_t i = 0; i < fromLight->vertices.size() && i + j + 2 <= mostScatterings; ++i) {
+      if (fromLight->vertices[i].isConnectible() && takes(i + 2, j + 2))
+        radiance += connector.connect(fromCamera, j, *fromLight, i).weighted();
+    }
+  }
+  if (!fromLight || !context.splats) return radiance;
+  for (std::size_t i = 0; i < fromLight->vertices.size(); ++i) {
+    const Point2f lens = i < SubpathTracer::kSampledVertices ? context.sampler.get2D() : uniform2D();
+    if (!fromLight->vertices[i].isConnectible() || !takes(i + 2, 1)) continue;
+    const auto onFilm = connector.lookForCamera(*fromLight, i, lens);
+    if (onFilm && onFilm->contribution.weight > 0)
+      context.splats->add(onFilm->film, onFilm->contribution.weighted());
+  }
+  return radiance;
+}
+
+}  // namespace pbrtmedia

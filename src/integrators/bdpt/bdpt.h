@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "integrators/bdpt/bdpt_setup.h"
+#include "render/sampling_integrator.h"
+
+namespace pbrtmedia {
+
+struct BdptParams {
+  int maxDepth = 5;  ///< scattering vertices of a path; 0: visible emission only
+  /// Leaves out the strategy with so many vertices from the light's end and the camera's, without giving its
+  /// share to the others: for tests, which see what it brings.
+  struct Strategy {
+    int s = 0, t = 0;
+  };
+  std::optional<Strategy> leftOut = std::nullopt;
+};
+
+/// Integrator `bdpt`: bidirectional path tracing over surfaces and media (Lafortune & Willems 1993; Veach &
+/// Guibas 1995, doi:10.1145/218380.218498). A path is found by every split into a part from a light and a
+/// part from the camera, weighed by the power heuristic (StrategyWeights). What media emit is found by parts
+/// from the camera alone. Scatterings count as in `volpath`; boundaries without material cost nothing. Where
+/// some medium follows another law than the exponential, which is not the same from both ends, parts from the
+/// light are its point at most, so that the image is that of `volpath`. Textures are not filtered. Unbiased.
+class BdptIntegrator final : public SamplingIntegrator {
+ public:
+  /// `selector`: of light samples, `startSelector`: of what light subpaths start on; null when the scene has
+  /// no lights. Scene::prepareEmission has been called.
+  BdptIntegrator(const Scene& scene, const BdptParams& params, std::unique_ptr<const LightSelector> selector,
+                 std::unique_ptr<const LightSelector> startSelector, CameraMedium cameraMedium);
+  ~BdptIntegrator() override;
+  std::string_view typeName() const override { return "bdpt"; }
+  Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
+  bool makesSplats() const override { return true; }
+
+ private:
+  bool takes(std::size_t s, std::size_t t) const;
+
+  BdptParams params_;
+  std::unique_ptr<const LightSelector> selector_, startSelector_;
+  MediaTopology media_;
+  BdptSetup setup_;
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include "integrators/bdpt/strategy_weights.h"
+#include "lighting/light_selector.h"
+#include "render/sample_context.h"
+#include "world/media_topology.h"
+#include "world/media_walk.h"
+
+namespace pbrtmedia {
+
+/// What all paths of an integrator share.
+struct BdptSetup {
+  const Scene& scene;
+  int maxDepth;                        ///< scatterings of a path
+  const LightSelector* selector;       ///< of light samples; null: there are no lights
+  const LightSelector* startSelector;  ///< of light subpaths; null: there are none
+  const MediaTopology* media;          ///< null: media are ignored
+  bool mediaEmit;                      ///< some medium may emit
+  StrategyWeights weights;
+
+  MediaWalk::Context walkContext(SampleContext& context) const {
+    return {scene, media, context.counters, context.counters.rays, context.mismatches};
+  }
+  MediaWalk::Context shadowContext(SampleContext& context) const {
+    return {scene, media, context.counters, context.counters.shadowRays, context.mismatches};
+  }
+};
+
+}  // namespace pbrtmedia

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "integrators/bdpt/bdpt_setup.h"
+#include "integrators/bdpt/path_vertex.h"
+#include "materials/transport_mode.h"
+
+namespace pbrtmedia {
+
+/// Radiance that a camera subpath finds by itself, by the number of its scatterings: strategies without a
+/// vertex from the light's end, and what media emit.
+using FoundRadiance = std::vector<Rgb>;
+
+/// Walks one subpath, from the camera or from a light. Boundaries without material are crossed on the way and
+/// are no vertices.
+class SubpathTracer {
+ public:
+  SubpathTracer(const BdptSetup& setup, SampleContext& context) : setup_(setup), context_(context) {}
+
+  /// With up to setup.maxDepth scatterings, and a last way that only looks for emission. `isSeen`: light
+  /// subpaths find the camera too where this ray starts; `pdf` is its density.
+  Subpath fromCamera(const Ray& ray, const MediumState& state, bool isSeen, WePdf pdf, FoundRadiance& found);
+  /// The same from a light, `toCamera` being the camera's ray, of which it is known what media it starts in.
+  /// Nothing when no light is sampled.
+  std::optional<Subpath> fromLight(const Ray& toCamera, const MediumState& atCamera);
+
+  /// Scatterings that the Sampler serves; the others take the Rng.
+  static constexpr std::size_t kSampledVertices = 4;
+
+ private:
+  enum class Event { End, Vertex };
+  Event goOn();
+  Event follow(MediaWalk& walk, BoundaryPlane start);
+  bool passMedium(const MediaStretch& stretch, const SceneHit* hit, const BoundaryPlane& start, Event& event);
+  void addMediumVertex(const MediaStretch& stretch, const MediumFlight& flight, const SceneHit* hit,
+                       const BoundaryPlane& start);
+  void addSurfaceVertex(MediaWalk& walk, const SceneHit& hit, const SurfaceInteraction& si);
+  void addVertex(PathVertex vertex);
+  bool scatter();
+  bool scatterOnSurface(PathVertex& vertex);
+  bool scatterInMedium(PathVertex& vertex);
+  bool playRoulette();
+  void trace();
+
+  void collectMediumEmission(const MediaStretch& stretch);
+  void collectHit(const SceneHit& hit, const SurfaceInteraction& si);
+  void collectBackground();
+  double weightOf(const LightPoint& light) const;
+
+  bool seesOnlyEmission() const { return static_cast<int>(path_.vertices.size()) >= setup_.maxDepth; }
+  bool isDirect() const { return path_.vertices.empty() || path_.vertices.back().isSpecular; }
+  float get1D();
+  Point2f get2D();
+
+  const BdptSetup& setup_;
+  SampleContext& context_;
+  FoundRadiance* found_ = nullptr;  ///< of a path from the camera
+
+  // The way at hand.
+  Ray ray_;
+  Exclusions rayStart_;
+  BoundaryPlane startPlane_;
+  ScatterPoint from_;
+  MediumState state_;
+  Rgb beta_{1.0f};
+  Rgb depth_;                                  ///< of the way at hand, so far; by the control
+  WePdf pdfCamera_{};                          ///< of the first way from the camera
+  double pdfDirection_ = 0;                    ///< per solid angle, of the others
+  float firstSize_ = 1;                        ///< of `beta_` at the start
+  std::vector<std::uint32_t> passedEmitters_;  ///< without material, by PrimitiveId::geometry
+  ScatteringsInPlace inPlace_;
+
+  Subpath path_;
+};
+
+}  // namespace pbrtmedia
