@@ -52,7 +52,10 @@ std::int64_t Schedule::passSize(std::uint64_t lookups) const {
 
 std::optional<Pass> Schedule::next(std::uint64_t lookups) {
   if (plan_.first >= plan_.end) return std::nullopt;
-  if (reasonToStop(lookups) != EarlyStop::None) return std::nullopt;
+  const EarlyStop reason = reasonToStop(lookups);
+  // What was looked up before the first sample is no image yet.
+  const bool isNothingYet = plan_.first == options_.firstSample;
+  if (reason != EarlyStop::None && !(reason == EarlyStop::Lookups && isNothingYet)) return std::nullopt;
   const Pass pass{plan_.first, static_cast<int>(passSize(lookups))};
   plan_.first += pass.count;
   ++passes_;

@@ -69,10 +69,14 @@ TEST(Schedule, ComesToABudgetOfLookupsWithinOneIndex) {
             (std::vector<int>{1, 4}));
   EXPECT_EQ(sizes({.mostLookups = 1}, {.first = 0, .end = 5, .mostPerPass = 64}, 0), (std::vector<int>{1, 4}))
       << "no look-ups at all";
+  EXPECT_EQ(Schedule({.first = 0, .end = 5, .mostPerPass = 64}, {.mostLookups = 10}).next(20).value().count,
+            1)
+      << "a warm-up has taken them all, and there is no image yet";
   RenderOptions options{.mostLookups = 950};
   Schedule schedule({.first = 0, .end = 1000, .mostPerPass = 64}, options);
   EXPECT_EQ(schedule.reasonToStop(949), EarlyStop::None);
   EXPECT_EQ(schedule.reasonToStop(950), EarlyStop::Lookups);
+  EXPECT_TRUE(schedule.next(0));
   EXPECT_FALSE(schedule.next(950));
 }
 
