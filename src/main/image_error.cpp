@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "main/image_error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -9,6 +10,11 @@ namespace {
 
 /// By how much samples grow from one look to the next: then an image is at most a tenth too good.
 constexpr double kGrowth = 1.1;
+
+bool isBlack(const Image& image, Bounds2i pixels) {
+  const Image shown = cutOut(image, pixels);
+  return std::all_of(shown.data().begin(), shown.data().end(), [](float value) { return value == 0; });
+}
 
 }  // namespace
 
@@ -34,7 +40,9 @@ bool ErrorTarget::isReached(const RenderResult& result) {
   if (!isDue(result)) return false;
   nextLook_ = kGrowth * static_cast<double>(result.samplesTaken);
   const std::optional<ErrorSummary> error = estimatedError(film_, pixels_, result);
-  return error && std::sqrt(error->relativeMse) <= most_;
+  if (!error || !(std::sqrt(error->relativeMse) <= most_)) return false;
+  // Halves that have met no light yet agree, too.
+  return error->relativeMse > 0 || !isBlack(film_.develop(), pixels_);
 }
 
 }  // namespace pbrtmedia

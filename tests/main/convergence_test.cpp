@@ -241,6 +241,26 @@ TEST_F(Convergence, StopsWithinOneSampleOfABudgetOfLookups) {
   }
 }
 
+TEST_F(Convergence, TakesASampleOfEachPixelWhenAWarmUpHasTakenAllLookups) {
+  folder_.write("a.pbrt", stripes(100, "random", kGrid + " \"string bounds\" \"progressive\""));
+  const ProcessResult r = pbrt("--lookups 1 --stats s.json a.pbrt");
+  EXPECT_EQ(r.status, 0) << r.output;
+  EXPECT_EQ(stats()["stoppedBy"], "lookups");
+  EXPECT_EQ(100 * stats()["samplesTaken"].get<int>(), stats()["samplesPlanned"].get<int>());
+}
+
+TEST_F(Convergence, TakesNoBlackImageForAGoodOne) {
+  folder_.write("dot.pbrt",
+                "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16 \"string filename\" "
+                "\"dot.pfm\"\nSampler \"random\" \"integer pixelsamples\" 1000\nIntegrator \"path\"\n"
+                "Camera \"perspective\" \"float fov\" 42\nWorldBegin\n"
+                "AreaLightSource \"diffuse\" \"rgb L\" [ 100 100 100 ]\nTranslate 0 0 5\n"
+                "Shape \"sphere\" \"float radius\" .02\nWorldEnd\n");
+  ASSERT_EQ(pbrt("--error .5 --stats s.json dot.pbrt").status, 0);
+  EXPECT_EQ(stats()["stoppedBy"], "error") << "negative control";
+  EXPECT_GT(stats()["samplesTaken"].get<int>(), 2 * 18 * 18);
+}
+
 TEST_F(Convergence, TellsWhatStoppedARenderEarly) {
   folder_.write("a.pbrt", stripes(100000000));
   EXPECT_EQ(pbrt("--strict --time .5 --stats s.json a.pbrt", "timeout -s KILL 120").status, 3);
