@@ -101,7 +101,11 @@ bool isFile(const fs::path& path) {
 
 bool areSame(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
-  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored);
+  // Absolute first: of a relative name without a file it would stay relative.
+  const auto canonical = [&](const fs::path& path) {
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+  };
+  return canonical(a) == canonical(b);
 }
 
 std::string quoted(const fs::path& path) { return '"' + path.string() + '"'; }
@@ -171,6 +175,10 @@ void Checkpoints::restore(const Construction& scene) {
              std::string(scene.sampler->typeName()) +
              "\" spreads all samples of a pixel together; render more with another --seed and average by "
              "imgtool merge");
+    }
+    if (then.world > 0) {
+      refuse(option + ": it is of another number of samples per pixel (" + counts +
+             "), and of the last of several worlds; those before it would keep the number they have");
     }
     if (then.samplesDone != then.samplesPerPixel || head_.samplesPerPixel < then.samplesDone) {
       refuse(option + ": it is of another number of samples per pixel (" + counts + "), of which " +

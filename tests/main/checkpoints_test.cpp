@@ -267,7 +267,7 @@ TEST_F(Checkpoints, NoRenderIsLostByAccident) {
   EXPECT_FALSE(folder_.has("fog.pfm"));
   EXPECT_EQ(pbrt("--resume c.ckpt --checkpoint other.ckpt a.pbrt").status, 1);
   // For a job that is started by one command, however often.
-  const ProcessResult first = pbrt("--resume c.ckpt --checkpoint c.ckpt a.pbrt");
+  const ProcessResult first = pbrt("--resume c.ckpt --checkpoint ./c.ckpt a.pbrt");
   EXPECT_EQ(first.status, 0);
   EXPECT_NE(first.output.find("note: there is no \"c.ckpt\" yet: starting at the beginning"),
             std::string::npos)
@@ -332,6 +332,9 @@ TEST_F(Checkpoints, OfSeveralWorldsTheOneUnderWayIsKept) {
   for (const char* name : {"one.pfm", "two.pfm", "three.pfm"}) std::filesystem::remove(folder_.path() / name);
   ASSERT_EQ(pbrt("--quiet --resume c.ckpt --stats s.json a.pbrt").status, 0);
   EXPECT_FALSE(folder_.has("two.pfm"));
+  const ProcessResult extended = pbrt("--quiet --resume c.ckpt --spp 16 a.pbrt");
+  EXPECT_EQ(extended.status, 1);
+  EXPECT_NE(extended.output.find("of the last of several worlds"), std::string::npos) << extended.output;
   EXPECT_EQ(folder_.read("three.pfm"), images["three.pfm"]);
   const nlohmann::json whole = statistics("whole.json"), resumed = statistics("s.json");
   ASSERT_EQ(resumed.size(), 3u);
