@@ -53,6 +53,14 @@ CLI::Validator sampleRange() {
   return CLI::Validator(check, "");
 }
 
+/// An empty one is most likely that of a variable of a script that is not set.
+CLI::Validator fileName() {
+  const auto check = [](std::string& text) -> std::string {
+    return text.empty() ? "found an empty name, expected a file" : "";
+  };
+  return CLI::Validator(check, "");
+}
+
 CLI::Validator frameRange() {
   const auto check = [](std::string& text) -> std::string {
     if (parseFrameRange(text)) return {};
@@ -145,6 +153,7 @@ void OptionList::addImage() {
       ->type_name("N")
       ->group(kRendering);
   app_.add_option("--outfile", outfile_, "image file; overrides the scene's (.exr .png .pfm .tga)")
+      ->check(fileName())
       ->group(kRendering);
   app_.add_option("--layers", layers_,
                   "what an EXR image is to hold besides colour: names with commas between them, or all; "
@@ -226,6 +235,7 @@ void OptionList::addMedia() {
       ->group(kRendering);
   app_.add_option("--bounds-cache", boundsCache_,
                   "start progressive bounds of media from this file if it exists, and write it in the end")
+      ->check(fileName())
       ->type_name("FILE")
       ->group(kRendering);
 }
@@ -249,6 +259,7 @@ void OptionList::addCheckpoints() {
   CLI::Option* const checkpoint =
       app_.add_option("--checkpoint", checkpoint_,
                       "now and then, and when the render is stopped, write all that --resume needs to go on")
+          ->check(fileName())
           ->type_name("FILE")
           ->group(kRendering);
   app_.add_option("--checkpoint-interval", options_.checkpointInterval,
@@ -262,6 +273,7 @@ void OptionList::addCheckpoints() {
           "--resume", resume_,
           "go on from a checkpoint of the same scene and options, to the same image; with --checkpoint "
           "of the same name it need not exist yet")
+      ->check(fileName())
       ->type_name("FILE")
       ->group(kRendering);
 }
@@ -291,13 +303,16 @@ void OptionList::addReports() {
       app_.add_option("--convergence", convergence_,
                       "write how the error falls with time (docs/convergence.md); without --reference it is "
                       "estimated")
+          ->check(fileName())
           ->type_name("FILE.csv")
           ->group(kReports);
   app_.add_option("--reference", reference_, "the image that --convergence measures against")
+      ->check(fileName())
       ->needs(convergence)
       ->type_name("FILE")
       ->group(kReports);
   app_.add_option("--stats", stats_, "write times, counters and memory as JSON")
+      ->check(fileName())
       ->type_name("FILE.json")
       ->group(kReports);
 }

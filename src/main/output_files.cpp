@@ -4,8 +4,11 @@
 #include <unistd.h>
 
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "base/writable.h"
 
@@ -47,6 +50,38 @@ void reportSharedOutputs(const std::vector<SceneDescription>& worlds, const Opti
                                   " too, and only the last one rendered stays; give each world a Film "
                                   "\"string filename\" of its own" +
                                   (options.outfile ? " and leave --outfile out" : ""));
+  }
+}
+
+void reportLostFiles(const std::vector<SceneDescription>& worlds, const Options& options,
+                     Diagnostics& diagnostics) {
+  const std::string image = "the image", resume = "--resume", checkpoint = "--checkpoint";
+  std::vector<std::pair<std::string, std::optional<fs::path>>> files;
+  for (const fs::path& scene : options.scenes) {
+    if (scene != "-") files.emplace_back("the scene", scene);
+  }
+  files.insert(files.end(), {{"--reference", options.reference}, {resume, options.resume}});
+  const std::size_t read = files.size();
+  for (const SceneDescription& world : worlds) {
+    files.emplace_back(image, options.outfile.value_or(namedOutput(world).first));
+    if (!options.png) continue;
+    files.push_back(files.back());
+    files.back().second->replace_extension(".png");
+  }
+  files.insert(files.end(), {{"--stats", options.statsFile},
+                             {"--convergence", options.convergence},
+                             {"--bounds-cache", options.boundsCache},
+                             {checkpoint, options.checkpoint}});
+  std::map<fs::path, std::string> uses;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto& [use, file] = files[i];
+    std::error_code ignored;
+    if (!file || (fs::exists(*file, ignored) && !fs::is_regular_file(*file, ignored))) continue;
+    const auto [first, isNew] =
+        uses.try_emplace(fs::weakly_canonical(fs::absolute(*file, ignored), ignored), use);
+    if (isNew || i < read || first->second == use || (first->second == resume && use == checkpoint)) continue;
+    diagnostics.error({}, use + " \"" + file->string() + "\" is the file of " + first->second +
+                              " too, and would be written over it; give each a name of its own");
   }
 }
 

@@ -24,6 +24,10 @@ std::string imageNameOf(const SceneDescription& world);
 void reportSharedOutputs(const std::vector<SceneDescription>& worlds, const Options& options,
                          Diagnostics& diagnostics);
 
+/// Files that the run would write over what it reads or has written itself: errors, as nobody wants that.
+void reportLostFiles(const std::vector<SceneDescription>& worlds, const Options& options,
+                     Diagnostics& diagnostics);
+
 /// What came of writing an image.
 struct SavedImage {
   std::filesystem::path file;  ///< where it is

@@ -76,6 +76,7 @@ void checkWorlds(const std::vector<SceneDescription>& worlds, const Options& opt
                               " WorldBegin … WorldEnd blocks; render them apart");
   }
   reportSharedOutputs(worlds, options, diagnostics);
+  reportLostFiles(worlds, options, diagnostics);
 }
 
 /// How a run ended.

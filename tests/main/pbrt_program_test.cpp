@@ -823,6 +823,35 @@ TEST_F(Pbrt, TellsOfWorldsThatWriteOneFile) {
   EXPECT_NE(outfile.output.find("leave --outfile out"), std::string::npos) << outfile.output;
 }
 
+TEST_F(Pbrt, WritesOverNothingThatItReadsOrWrites) {
+  folder_.write("a.pbrt", kScene);
+  ASSERT_EQ(pbrt("a.pbrt").status, 0);
+  const std::string image = folder_.read("named.exr");
+  const std::pair<std::string, std::string> wrong[] = {
+      {"--stats a.pbrt", "--stats \"a.pbrt\" is the file of the scene too"},
+      {"--convergence ./a.pbrt", "--convergence \"./a.pbrt\" is the file of the scene too"},
+      {"--convergence c.csv --reference named.exr", "the image \"named.exr\" is the file of --reference too"},
+      {"--convergence c.csv --stats c.csv", "--convergence \"c.csv\" is the file of --stats too"},
+      {"--outfile b.exr --checkpoint b.exr", "--checkpoint \"b.exr\" is the file of the image too"},
+      {"--png --stats named.png", "--stats \"named.png\" is the file of the image too"}};
+  for (const auto& [arguments, part] : wrong) {
+    const ProcessResult r = pbrt(arguments + " a.pbrt");
+    EXPECT_EQ(r.status, 1) << r.output;
+    EXPECT_NE(r.output.find(part), std::string::npos) << r.output;
+  }
+  EXPECT_EQ(folder_.read("named.exr"), image);
+  EXPECT_EQ(pbrt("--stats /dev/null --convergence /dev/null a.pbrt").status, 0);
+}
+
+TEST_F(Pbrt, TakesNoEmptyNameForAFile) {
+  folder_.write("a.pbrt", kScene);
+  for (const char* option : {"--outfile", "--stats", "--bounds-cache", "--checkpoint", "--resume"}) {
+    const ProcessResult r = pbrt(std::string(option) + " '' a.pbrt");
+    EXPECT_EQ(r.status, 1) << r.output;
+    EXPECT_NE(r.output.find("found an empty name, expected a file"), std::string::npos) << r.output;
+  }
+}
+
 TEST_F(Pbrt, WritesAPngToo) {
   folder_.write("a.pbrt", kScene);
   const ProcessResult r = pbrt("--png a.pbrt");
