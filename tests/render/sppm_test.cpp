@@ -107,14 +107,6 @@ INSTANTIATE_TEST_SUITE_P(
         SppmScene{"sky", kFog + kRoom + ballOf(kInFog, .7) + kSky, ""},
         SppmScene{"sun", kFog + kRoom + ballOf(kInFog, .7) + kSun, ""},
         SppmScene{"lamp", kFog + kRoom + ballOf(kInFog, .7) + kLamp, ""},
-        SppmScene{"lampInFog",
-                  kFog + kRoom + ballOf(kInFog, .7) +
-                      "AttributeBegin Material \"none\" MediumInterface \"m\" \"m\" AreaLightSource "
-                      "\"diffuse\" \"rgb L\" [ 20 18 9 ] Translate 0 0 1 Shape \"sphere\" \"float radius\" "
-                      ".1 AttributeEnd\n",
-                  ""},
-        SppmScene{"cameraInFog", "MediumInterface \"\" \"m\"\n" + kRoom + kSpot,
-                  kFog + "MediumInterface \"\" \"m\"\n"},
         SppmScene{"glassAroundFog",
                   kFog + kRoom + ballOf("Material \"glass\" MediumInterface \"m\" \"\"", .6) + kLamp, ""},
         SppmScene{"mixedLobes",
