@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/diagnostics.h"
+#include "base/interruption.h"
 #include "base/parallel.h"
 #include "base/run_program.h"
 #include "base/stop_signal.h"
@@ -161,7 +162,7 @@ Outcome renderScenes(const Options& given, Together& together) {
       const std::optional<RenderStatistics> one =
           renderWorld(worlds[number], {number, worldName(options, number)}, run,
                       all.empty() ? parseTime : PhaseTime{}, status);
-      if (!one) return {status};
+      if (!one) break;
       all.push_back(*one);
       checkpoints->leave(statisticsText(*one));
       isOver = one->interrupted && stop;
@@ -173,9 +174,38 @@ Outcome renderScenes(const Options& given, Together& together) {
       isOver = true;
     }
     isOver = together.decide(isOver ? 1 : 0) == 1;
+    if (isOver && number + 1 < worlds.size() && !options.quiet) {
+      std::cerr << "pbrt: warning: stopped: " << worlds.size() - number - 1 << " of " << worlds.size()
+                << " worlds are not rendered\n";
+    }
   }
   if (options.statsFile && !all.empty()) writeStatistics(*options.statsFile, checkpoints->worldsDone());
+  // Also one that came too late for this scene ends what would follow.
+  isStopped = isStopped || interruption::requested == StopCause::Signal;
   return {together.decide(status), isStopped};
+}
+
+void tell(const SceneError& e) {
+  if (e.location().file == nullptr) {
+    std::cerr << "pbrt: error: " << e.what() << '\n';
+    return;
+  }
+  Diagnostics diagnostics;  // with its excerpt, as those that were collected
+  diagnostics.add(e);
+  std::cerr << diagnostics.format();
+}
+
+/// What fails in a frame is told, and is its status. Several ranks all leave where one fails.
+Outcome renderFrame(const Options& options, Together& together) {
+  if (!together.ranks().isAlone()) return renderScenes(options, together);
+  try {
+    return renderScenes(options, together);
+  } catch (const SceneError& e) {
+    tell(e);
+  } catch (const std::exception& e) {
+    std::cerr << "pbrt: error: " << e.what() << '\n';
+  }
+  return {kExitBadInput};
 }
 
 /// One after the other; a problem of one does not keep the others, unless several ranks have it.
@@ -186,7 +216,7 @@ int renderFrames(const Options& options, Together& together) {
   for (int frame = frames.first; frame <= frames.last; frame += frames.step) {
     if (!options.quiet)
       std::cerr << "pbrt: frame " << frame << " of " << frames.first << " to " << frames.last << '\n';
-    const Outcome one = renderScenes(optionsOfFrame(options, frame), together);
+    const Outcome one = renderFrame(optionsOfFrame(options, frame), together);
     if (status == 0) status = one.status;
     if (together.hasFailed() || frame > frames.last - frames.step) break;
     if (together.decide(one.isStopped ? 1 : 0) == 1) break;
@@ -211,11 +241,8 @@ int runPbrtProgram(const Options& options, Together& together) {
       const int status = runPbrt(options, together);
       together.noteEnd();
       return status;
-    } catch (const SceneError& e) {  // shown with its excerpt, as those that were collected
-      if (e.location().file == nullptr) throw;
-      Diagnostics diagnostics;
-      diagnostics.add(e);
-      std::cerr << diagnostics.format();
+    } catch (const SceneError& e) {
+      tell(e);
       return kExitBadInput;
     }
   });

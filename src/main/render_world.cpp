@@ -90,7 +90,14 @@ void checkRange(const SampleRange& range, const Construction& scene, bool resume
 void begin(const BuiltWorld& world, const WorldId& id, const Run& run) {
   const Options& options = run.options;
   const Construction& scene = world.scene;
-  if (needsHalves(options)) scene.film->keepHalves();
+  if (needsHalves(options)) {
+    scene.film->keepHalves();
+    if (scene.integrator->makesSplats() && !options.quiet) {
+      std::cerr
+          << "pbrt: warning: the error is estimated from what camera rays bring; the noise of what light "
+             "paths bring to other pixels comes on top of it (--reference sees all)\n";
+    }
+  }
   run.checkpoints.enter(id.number, world.identity, scene);
   if (!run.checkpoints.resumes()) {  // which brings its bounds along
     const std::string boundsWarnings = run.bounds.restore(id.name, *scene.scene);

@@ -188,6 +188,12 @@ class TileLoop {
 
 }  // namespace
 
+std::string SamplingIntegrator::whyInOnePiece() const {
+  if (!makesSplats()) return {};
+  return "its light paths bring light to pixels everywhere, which image files do not hold apart; render the "
+         "whole with other seeds, and imgtool merge takes the mean";
+}
+
 LayerMask SamplingIntegrator::layers() const {
   LayerMask mask = maskOf({Layer::Samples, Layer::Seconds, Layer::Lookups}) | layersOfRays();
   // Splats come from anywhere, and nobody knows how they vary.

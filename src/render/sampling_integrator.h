@@ -15,11 +15,6 @@ class SamplingIntegrator : public Integrator {
   /// `ray`: world space, unit direction, differentials already scaled by 1/sqrt(samples per pixel).
   /// Thread-safe.
   virtual Rgb radiance(const RayDifferential& ray, SampleContext& context) const = 0;
-  /// Whether `radiance` puts something into SampleContext::splats: of a light path for each camera sample,
-  /// what it brings to the image wherever it hits. A pixel is the mean of what camera rays bring plus the
-  /// mean over as many splats as there are samples to a pixel of the whole image.
-  virtual bool makesSplats() const { return false; }
-
   /// What every sample can tell, and `layersOfRays`.
   LayerMask layers() const final;
   /// Those that `radiance` sets in SampleContext::layers when they are wanted, without any effect on what it
@@ -28,6 +23,8 @@ class SamplingIntegrator : public Integrator {
 
   RenderResult render(const Camera& camera, const Sampler& sampler, Film& film,
                       const RenderOptions& options) const final;
+  /// The sums of a range of samples that an image file holds are those of camera rays alone.
+  std::string whyInOnePiece() const override;
 
  protected:
   using Integrator::Integrator;

@@ -77,6 +77,28 @@ TEST_F(Frames, AreNotWrittenOverEachOther) {
   EXPECT_TRUE(exists("a-1.pfm") && exists("a-2.pfm"));
 }
 
+/// What keeps one frame from being rendered does not keep the others.
+TEST_F(Frames, GoOnBehindOneThatFails) {
+  write("a-####.pfm", "4");
+  std::ofstream(folder_.path() / "c-2.checkpoint") << "something else";
+  const ProcessResult r = pbrt("--frames 1:3 --checkpoint c-#.checkpoint s.pbrt");
+  EXPECT_EQ(r.status, 1) << r.output;
+  EXPECT_TRUE(exists("a-0001.pfm") && exists("a-0003.pfm")) << r.output;
+  EXPECT_FALSE(exists("a-0002.pfm")) << r.output;
+  EXPECT_NE(r.output.find("c-2.checkpoint"), std::string::npos) << r.output;
+}
+
+TEST_F(Frames, TellWhichWorldsATimeLeavesOut) {
+  write("a.pfm", "4", "100000000");
+  const std::string scene = folder_.read("s.pbrt");
+  std::string second = scene;
+  second.replace(second.find("a.pfm"), 5, "b.pfm");
+  std::ofstream(folder_.path() / "s.pbrt") << scene << second;
+  const ProcessResult r = pbrt("--time 0.3 s.pbrt");
+  EXPECT_EQ(r.status, 0) << r.output;
+  EXPECT_NE(r.output.find("warning: stopped: 1 of 2 worlds are not rendered"), std::string::npos) << r.output;
+}
+
 TEST_F(Frames, EndWhereASignalCame) {
   write("a-####.pfm", "4", "100000000");
   BackgroundProgram program({PBRT_PROGRAM, "--frames", "1:3", "--progress", "plain", "s.pbrt"},

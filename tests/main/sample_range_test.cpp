@@ -130,6 +130,17 @@ TEST_F(SampleRange, SaysWhatARangeMayBe) {
   EXPECT_EQ(image("whole.exr").metadata.at("samples"), "2") << "iterations";
 }
 
+/// Sums of a range hold no splats: a merge would lose what light paths bring.
+TEST_F(SampleRange, IsRefusedWhereLightPathsBringLightElsewhere) {
+  std::string text = scene("random", kFog);
+  text.replace(text.find("volpath"), 7, "bdpt");
+  folder_.write("a.pbrt", text);
+  const ProcessResult r = pbrt("--samples 0:3 --outfile a.exr a.pbrt");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_NE(r.output.find("cannot be rendered in parts: its light paths"), std::string::npos) << r.output;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "a.exr"));
+}
+
 TEST_F(SampleRange, GoesOnFromACheckpointOfItsOwn) {
   folder_.write("a.pbrt", scene("random", kFog));
   render("2:7");
