@@ -130,6 +130,14 @@ TEST_F(SampleRange, SaysWhatARangeMayBe) {
   EXPECT_EQ(image("whole.exr").metadata.at("samples"), "2") << "iterations";
 }
 
+TEST_F(SampleRange, MergesWhatWasStoppedEarlyAndSaysSo) {
+  folder_.write("a.pbrt", scene("random", kFog));
+  render("0:4", "--spp 4000000 --error 1000");
+  render("4:4000000", "--spp 4000000 --error 1000");
+  ASSERT_EQ(merge("0-4.exr 4-4000000.exr -o all.exr").status, 0);
+  EXPECT_EQ(image("all.exr").metadata.at("stoppedBy"), "error");
+}
+
 /// Sums of a range hold no splats: a merge would lose what light paths bring.
 TEST_F(SampleRange, IsRefusedWhereLightPathsBringLightElsewhere) {
   std::string text = scene("random", kFog);

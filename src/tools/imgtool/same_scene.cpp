@@ -145,7 +145,11 @@ std::map<std::string, std::string> mergedMetadata(const std::vector<NamedImage>&
   }
   sumSeconds(inputs, out);
   double samples = 0;
-  for (const NamedImage& input : inputs) samples += samplesOf(input);
+  for (const NamedImage& input : inputs) {
+    samples += samplesOf(input);
+    const auto stopped = input.image.metadata.find("stoppedBy");
+    if (stopped != input.image.metadata.end()) out.metadata.insert(*stopped);
+  }
   out.metadata["samples"] = countText(samples);
   return out.metadata;
 }
