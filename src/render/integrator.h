@@ -39,8 +39,8 @@ class Integrator {
   virtual RenderResult render(const Camera& camera, const Sampler& sampler, Film& film,
                               const RenderOptions& options) const = 0;
   /// Whether it puts something into SampleContext::splats: of a light path for each camera sample, what it
-  /// brings to the image wherever it hits. A pixel is the mean of what camera rays bring plus the mean over as
-  /// many splats as there are samples to a pixel of the whole image.
+  /// brings to the image wherever it hits. A pixel is the mean of what camera rays bring plus the mean over
+  /// as many splats as there are samples to a pixel of the whole image.
   virtual bool makesSplats() const { return false; }
   /// Why the samples of an image cannot be taken in ranges apart from each other (RenderOptions::firstSample
   /// above 0), to stand after "cannot be rendered in parts: "; empty: they can.
