@@ -9,8 +9,11 @@
 #include <set>
 #include <sstream>
 
+#include "base/variant_names.h"
 #include "construct/attempt.h"
+#include "freeflight/any_flight.h"
 #include "main/statistics_report.h"
+#include "singlescattering/medium_light_sampling.h"
 #include "support/source_dir.h"
 #include "support/temporary_folder.h"
 
@@ -94,6 +97,32 @@ TEST(Docs, TheKeysOfTheStatisticsAreThoseThatAreWritten) {
       documented.insert((*m)[1]);
   }
   EXPECT_EQ(documented, written);
+}
+
+/// Words in backticks of the text.
+std::set<std::string> namesIn(const std::string& text) {
+  std::set<std::string> names;
+  const std::regex word("`([a-z0-9-]+)`");
+  for (std::sregex_iterator m(text.begin(), text.end(), word), end; m != end; ++m) names.insert((*m)[1]);
+  return names;
+}
+
+TEST(Docs, TheNamesOfTheSceneLanguageAreThoseThatAreKnown) {
+  std::set<std::string> known;
+  const std::regex entry(R"x(\{"([a-z0-9]+)",\s*(read|\[))x");
+  for (const auto& file : std::filesystem::directory_iterator(kRoot / "src" / "construct")) {
+    if (file.path().extension() != ".cpp") continue;
+    const std::string text = textOf(file.path());
+    for (std::sregex_iterator m(text.begin(), text.end(), entry), end; m != end; ++m) known.insert((*m)[1]);
+  }
+  EXPECT_GE(known.size(), 60u) << "the tables are no longer found";
+  for (const std::string_view name : flightNames()) known.insert(std::string(name));
+  for (const std::string_view name : alternativeNames<MediumLightSampling>()) known.insert(std::string(name));
+
+  const std::string page = textOf(kRoot / "docs" / "scene-language.md");
+  const std::size_t begin = page.find("\n## Names of plugins\n"), end = page.find("\n## ", begin + 1);
+  ASSERT_NE(begin, page.npos);
+  EXPECT_EQ(namesIn(page.substr(begin, end - begin)), known);
 }
 
 }  // namespace
