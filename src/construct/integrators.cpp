@@ -177,6 +177,13 @@ IntegratorPlan readBdpt(ParamReader& in, const ConstructOptions&) {
   BdptParams p;
   p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   const std::string_view strategy = readLightSampleStrategy(in, 1);
+  for (const std::string_view name : {"visualizestrategies", "visualizeweights"}) {
+    if (!in.findBool(name, false)) continue;
+    in.diagnostics().tolerated(in.locationOf(ParamKind::Bool, name),
+                               in.context() + ": \"" + std::string(name) +
+                                   "\" has no effect: PBRT-v3 writes an image for each strategy, here only "
+                                   "the image of all of them is made");
+  }
   // Light subpaths start before anybody knows where they are looked at from.
   const std::string_view starts = strategy == "uniform" ? "uniform" : "power";
   return {.make = [=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
@@ -209,7 +216,7 @@ constexpr std::array<std::pair<ParamKind, std::string_view>, 5> kOfMlt = {
      {ParamKind::Integer, "mutationsperpixel"},
      {ParamKind::Float, "largestepprobability"},
      {ParamKind::Float, "sigma"}}};
-constexpr std::array<Substitute, 1> kSubstitutes = {{{"mlt", "volpath", kOfMlt}}};
+constexpr std::array<Substitute, 1> kSubstitutes = {{{"mlt", "bdpt", kOfMlt}}};
 
 /// The substitute for the entity's type, which is told and set; null where none is needed, or there is none.
 const Substitute* substitute(Entity& entity, Diagnostics& diagnostics) {

@@ -202,7 +202,7 @@ TEST(Tolerance, NumbersBeyondTheirRangeAreMovedAsInPbrt) {
 TEST(Tolerance, IntegratorsOfTheSameImageTakeThePlaceOfThoseThatAreNotThere) {
   const std::string world = "LightSource \"infinite\" \"rgb L\" [ .5 .5 .5 ] " + kBall;
   for (const auto& [absent, taken] :
-       {std::pair{"\"mlt\" \"integer chains\" 9 \"float sigma\" .1", "\"volpath\""}}) {
+       {std::pair{"\"mlt\" \"integer chains\" 9 \"float sigma\" .1", "\"bdpt\""}}) {
     const Attempt a = attemptWorld(world, {}, std::string("Integrator ") + absent),
                   b = attemptWorld(world, {}, std::string("Integrator ") + taken);
     ASSERT_TRUE(a.warns("takes its place, which converges to the same image")) << a.messages();
@@ -213,6 +213,20 @@ TEST(Tolerance, IntegratorsOfTheSameImageTakeThePlaceOfThoseThatAreNotThere) {
     EXPECT_TRUE(attemptWorld(world, {}, std::string("Integrator ") + absent).failsWith("is not there"));
   }
   EXPECT_TRUE(attemptWorld(world, {}, "Integrator \"occlusion\"").failsWith("unknown type"));
+}
+
+TEST(Tolerance, ImagesOfSingleStrategiesAreToldToBeMissing) {
+  const std::string world = "LightSource \"infinite\" " + kBall;
+  for (const std::string name : {"visualizestrategies", "visualizeweights"}) {
+    const auto with = [&](const std::string& value) {
+      return attemptWorld(world, {}, "Integrator \"bdpt\" \"bool " + name + "\" \"" + value + '"');
+    };
+    EXPECT_TRUE(with("false").isSilent());
+    const Attempt asked = with("true");
+    EXPECT_TRUE(asked.made && asked.warns("\"" + name + "\" has no effect")) << asked.messages();
+    const StrictAttempts strict;
+    EXPECT_TRUE(with("true").failsWith("has no effect"));
+  }
 }
 
 TEST(Tolerance, ALensThatCannotBeIsNone) {
