@@ -98,7 +98,8 @@ def main() -> int:
         seconds_of([o.pbrt, "--quiet", "--spp", str(o.spp), "--seed", "1000", "--outfile", str(folder / "reference.exr"), o.scene])
         runs = {"plain": (o.pbrt, []), **{name: (o.pbrt, words) for name, words in settings_of(folder, Viewer().port).items()}}
         if o.before:
-            runs["before"] = (o.before, [])
+            version = subprocess.run([o.before, "--version"], capture_output=True, text=True, check=True).stdout
+            runs["commit " + version.split("commit ")[1].split(",")[0]] = (o.before, [])
         ratios: dict[str, list[float]] = {name: [] for name in runs}
         order = random.Random(1)
         for round_number in range(o.rounds):

@@ -280,7 +280,7 @@ inline std::vector<CorpusScene> corpus() {
        kBallOnly},
       {"light-without-direction", "LightSource \"distant\" \"point to\" [ 0 0 0 ]\n" + kBall,
        "the light is left out", kBallOnly},
-      {"shape-unknown", "Shape \"curve\" \"float width\" 1\n" + kBall, "unknown type \"curve\"", kBallOnly},
+      {"shape-unknown", "Shape \"blobby\" \"float width\" 1\n" + kBall, "unknown type \"blobby\"", kBallOnly},
       {"mesh-empty",
        "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [ 5 5 5 ]\n"
        "Shape \"trianglemesh\" \"point P\" [ ] \"normal N\" [ ] \"float st\" [ ] \"integer indices\" [ ]\n"
