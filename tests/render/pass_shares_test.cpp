@@ -105,6 +105,11 @@ TEST(PassShares, BalancesWhatTilesCost) {
   EXPECT_GT(spread(loads()), 1.2) << "dealt out one by one";
   all.balance(costs);
   EXPECT_LT(spread(loads()), 1.02);
+  // One tile costs as much as a third of all others: whoever has it takes nothing else.
+  costs.assign(costs.size(), 10);
+  costs[7] = 10 * (costs.size() - 1) / 3;
+  all.balance(costs);
+  EXPECT_LT(spread(loads()), 1.2);
 }
 
 }  // namespace

@@ -23,13 +23,21 @@ struct SppmScene {
   friend std::ostream& operator<<(std::ostream& os, const SppmScene& s) { return os << s.name; }
 };
 
-const std::string kRoom =
-    "AttributeBegin Material \"matte\" \"rgb Kd\" [ .7 .6 .5 ]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 -1 0 1 -1 0 1 1 0 -1 1 0 ]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 1 0 1 1 0 1 1 2 -1 1 2 ]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 -1 0 -1 1 0 -1 1 2 -1 -1 2 "
-    "]\n"
-    "AttributeEnd\n";
+std::string roomOf(const std::string& material) {
+  return "AttributeBegin " + material +
+         "\n"
+         "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 -1 0 1 -1 0 1 1 0 -1 1 "
+         "0 ]\n"
+         "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 1 0 1 1 0 1 1 2 -1 1 2 "
+         "]\n"
+         "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -1 -1 0 -1 1 0 -1 1 2 -1 "
+         "-1 2 "
+         "]\n"
+         "AttributeEnd\n";
+}
+const std::string kRoom = roomOf("Material \"matte\" \"rgb Kd\" [ .7 .6 .5 ]");
+const std::string kMirrorAndMatte =
+    "Material \"uber\" \"rgb Kd\" [ .5 .4 .3 ] \"rgb Kr\" [ .3 .3 .3 ] \"rgb Ks\" [ 0 0 0 ]";
 const std::string kPoint = "LightSource \"point\" \"point from\" [ .3 -.4 1.9 ] \"rgb I\" [ 3 2.5 2 ]\n";
 const std::string kSpot =
     "LightSource \"spot\" \"point from\" [ .3 -.4 1.9 ] \"point to\" [ 0 .2 0 ] \"rgb I\" [ 8 7 6 ]\n";
@@ -109,13 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
         SppmScene{"lamp", kFog + kRoom + ballOf(kInFog, .7) + kLamp, ""},
         SppmScene{"glassAroundFog",
                   kFog + kRoom + ballOf("Material \"glass\" MediumInterface \"m\" \"\"", .6) + kLamp, ""},
-        SppmScene{"mixedLobes",
-                  kRoom +
-                      ballOf("Material \"uber\" \"rgb Kd\" [ .3 .3 .3 ] \"rgb Kr\" [ .4 .4 .4 ] \"rgb Ks\" [ "
-                             ".1 .1 .1 ]",
-                             .6) +
-                      kPoint,
-                  ""},
+        SppmScene{"mixedLobes", roomOf(kMirrorAndMatte) + ballOf(kMirrorAndMatte, .6) + kPoint, ""},
         SppmScene{"overlap",
                   "MakeNamedMedium \"n\" \"string type\" \"homogeneous\" \"string overlap\" \"add\" \"rgb "
                   "sigma_a\" [ .1 .1 .1 ] "
