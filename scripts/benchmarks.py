@@ -3,7 +3,7 @@
 """Keeps the tables of docs/benchmarks.md and docs/convergence.md: nobody types a number there.
 
   benchmarks.py record FILE...   takes the results of a run into docs/benchmarks/: the JSON of layout_bench or estimator_bench
-                                 (--json FILE), summary.csv of pbrt-compare, of one scene or of several, the table of option_costs.py. Rows that a run did not measure stay
+                                 (--json FILE), summary.csv of pbrt-compare, of one scene or of several. Rows that a run did not measure stay
   benchmarks.py docs             writes the tables of the pages from docs/benchmarks/
   benchmarks.py check            status 1 if a page has other tables
 """
@@ -15,13 +15,13 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGES = {"docs/benchmarks.md": ("layouts", "estimators", "renders"), "docs/convergence.md": ("comparison", "costs")}
+PAGES = {"docs/benchmarks.md": ("layouts", "estimators", "renders"), "docs/convergence.md": ("comparison",)}
 DATA = "docs/benchmarks"
 AXES = {"samples": "samples", "lookups": "lookups", "seconds": "cpu"}  # that variance times cost is told of; in summary.csv
 
 Rows = list[dict[str, str]]
 # Columns that tell the rows of a file apart.
-KEYS = {"layouts": ("grid", "layout"), "estimators": ("field", "estimator"), "renders": ("setting",), "comparison": ("scene", "setting"), "costs": ("option",)}
+KEYS = {"layouts": ("grid", "layout"), "estimators": ("field", "estimator"), "renders": ("setting",), "comparison": ("scene", "setting")}
 
 
 def number(value: float | None, form: str) -> str:
@@ -77,14 +77,8 @@ def record(root: pathlib.Path, path: pathlib.Path) -> str:
     else:
         with path.open(newline="") as file:
             rows = list(csv.DictReader(file))
-        if "option" in rows[0]:
-            return store(root, "costs", rows)
         several = len({r["scene"] for r in rows}) > 1
         name, new = ("comparison", from_comparison(rows)) if several else ("renders", from_renders(rows))
-    return store(root, name, new)
-
-
-def store(root: pathlib.Path, name: str, new: Rows) -> str:
     fresh = {tuple(r[k] for k in KEYS[name]): r for r in new}
     merged = [fresh.pop(tuple(r[k] for k in KEYS[name]), r) for r in read(root, name)] + list(fresh.values())
     with (root / DATA / f"{name}.csv").open("w", newline="") as file:
@@ -145,15 +139,7 @@ def comparison(rows: Rows) -> str:
     return table(["setting", *scenes], [[f"`{s}`", *(cell(by.get((s, scene))) for scene in scenes)] for s in settings])
 
 
-def costs(rows: Rows) -> str:
-    def percent(ratio: str) -> str:
-        return format(100 * (float(ratio) - 1), "+.1f")
-    return table(["option", "processor time"],
-                 [[f"`{r['option']}`" if r["option"].startswith("-") else r["option"],
-                   f"{percent(r['ratio'])} % ({percent(r['low'])} – {percent(r['high'])})"] for r in rows])
-
-
-MAKERS = {"layouts": layouts, "estimators": estimators, "renders": renders, "comparison": comparison, "costs": costs}
+MAKERS = {"layouts": layouts, "estimators": estimators, "renders": renders, "comparison": comparison}
 
 
 def page(root: pathlib.Path, name: str, text: str) -> str:

@@ -61,14 +61,6 @@ class Benchmarks(unittest.TestCase):
         self.assertIn("| setting | fog | fire |\n", page)
         self.assertIn("| `a` | **1** | biased |\n| `b` | 2.35 (2.00 – 3.00) | **1** |\n", page)
 
-    def test_costs_of_options_are_percent_of_the_plain_render(self):
-        path = self.root / "costs.csv"
-        path.write_text("option,ratio,low,high\n--serve,1.0123,0.99,1.0251\nbefore,1,1,1\n")
-        (self.root / benchmarks.DATA / "costs.csv").write_text("option,ratio,low,high\nbefore,2,2,2\n")
-        self.assertEqual(benchmarks.record(self.root, path), "costs")
-        page = benchmarks.page(self.root, CONVERGENCE, "<!-- table costs -->\n<!-- end -->\n")
-        self.assertIn("| before | +0.0 % (+0.0 – +0.0) |\n| `--serve` | +1.2 % (-1.0 – +2.5) |\n", page)
-
 
 if __name__ == "__main__":
     unittest.main()
