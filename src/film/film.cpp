@@ -266,6 +266,7 @@ bool Film::setRows(int first, int end, const State& rows) {
     return false;
   const auto offset = static_cast<std::ptrdiff_t>(first - pixelBounds_.min.y) * pixelBounds_.width();
   const auto place = [&](const auto& part, auto& all, std::size_t perPixel) {
+    if (part.empty()) return;
     std::copy(part.begin(), part.end(), all.begin() + offset * static_cast<std::ptrdiff_t>(perPixel));
   };
   place(rows.sums, state_.sums, 1);

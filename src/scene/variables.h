@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace pbrtmedia {
@@ -28,7 +29,9 @@ class Variables {
   /// Sets the variable "frame" too. `frame`: >= 0.
   void setFrame(int frame);
   /// `tokens`: of the language. Nothing happens where the name has a value.
-  void setDefault(const std::string& name, std::string tokens) { values_.try_emplace(name, Value{tokens}); }
+  void setDefault(const std::string& name, std::string tokens) {
+    values_.try_emplace(name, Value{std::move(tokens)});
+  }
 
   /// The tokens of a value, which then counts as used; null: there is none.
   const std::string* find(std::string_view name);
