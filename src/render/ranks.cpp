@@ -64,15 +64,16 @@ std::vector<std::string> Ranks::exchange(std::span<const std::string> outgoing,
 }
 
 std::vector<std::string> Ranks::gather(std::string bytes) {
-  std::vector<std::string> all;
-  if (!isAlone()) {
-    std::vector<std::string> outgoing(count());
-    std::vector<std::size_t> senders;
-    for (std::size_t r = 1; isFirst() && r < count(); ++r) senders.push_back(r);
-    if (!isFirst()) outgoing.front() = std::move(bytes);
-    all = exchange(outgoing, senders);
+  if (isAlone()) return {std::move(bytes)};
+  std::vector<std::string> outgoing(count());
+  if (!isFirst()) {
+    outgoing.front() = std::move(bytes);
+    return exchange(outgoing, {});
   }
-  if (isFirst()) all.insert(all.begin(), std::move(bytes));
+  std::vector<std::size_t> senders;
+  for (std::size_t r = 1; r < count(); ++r) senders.push_back(r);
+  std::vector<std::string> all = exchange(outgoing, senders);
+  all.insert(all.begin(), std::move(bytes));
   return all;
 }
 
