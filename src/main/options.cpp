@@ -4,11 +4,11 @@
 #include <glog/logging.h>
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <map>
 #include <stdexcept>
 
+#include "main/option_values.h"
 #include "tools/command_line.h"
 
 namespace pbrtmedia {
@@ -31,61 +31,6 @@ std::function<std::string(std::string&)> problemOf(Endpoint (*parse)(std::string
       return e.what();
     }
   };
-}
-
-/// "16:64" as numbers; nothing for what is no range.
-std::optional<SampleRange> parseSampleRange(const std::string& text) {
-  SampleRange range;
-  const char *const begin = text.data(), *const end = begin + text.size();
-  const auto first = std::from_chars(begin, end, range.first);
-  if (first.ec != std::errc() || first.ptr == end || *first.ptr != ':') return std::nullopt;
-  const auto last = std::from_chars(first.ptr + 1, end, range.end);
-  const bool isRange =
-      last.ec == std::errc() && last.ptr == end && range.first >= 0 && range.end > range.first;
-  return isRange ? std::optional(range) : std::nullopt;
-}
-
-CLI::Validator sampleRange() {
-  const auto check = [](std::string& text) -> std::string {
-    if (parseSampleRange(text)) return {};
-    return "found " + text + ", expected FIRST:LAST, whole numbers with 0 <= FIRST < LAST";
-  };
-  return CLI::Validator(check, "");
-}
-
-/// An empty one is most likely that of a variable of a script that is not set.
-CLI::Validator fileName() {
-  const auto check = [](std::string& text) -> std::string {
-    return text.empty() ? "found an empty name, expected a file" : "";
-  };
-  return CLI::Validator(check, "");
-}
-
-CLI::Validator frameRange() {
-  const auto check = [](std::string& text) -> std::string {
-    if (parseFrameRange(text)) return {};
-    return "found " + text +
-           ", expected FIRST:LAST or FIRST:LAST:STEP, whole numbers with FIRST <= LAST and STEP > 0";
-  };
-  return CLI::Validator(check, "");
-}
-
-CLI::Validator definition() {
-  const auto check = [](std::string& text) -> std::string {
-    const std::size_t equals = text.find('=');
-    if (equals != std::string::npos && Variables::isName(text.substr(0, equals))) return {};
-    return "found " + text + ", expected NAME=VALUE, the name of letters, digits and _";
-  };
-  return CLI::Validator(check, "");
-}
-
-std::string shellQuoted(const std::string& word) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./,:@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
 }
 
 /// Every option of the program: what it is called, what it may be and what --help says of it. Short forms
@@ -415,7 +360,7 @@ OptionsOutcome readOptions(int argc, const char* const* argv) {
   OptionsOutcome outcome = OptionList().read({argv + 1, argv + argc});
   if (!outcome.options) return outcome;
   std::string& typed = outcome.options->commandLine;
-  for (int i = 0; i < argc; ++i) typed += (i > 0 ? " " : "") + shellQuoted(argv[i]);
+  for (int i = 0; i < argc; ++i) typed += (i > 0 ? " " : "") + shellWord(argv[i]);
   return outcome;
 }
 

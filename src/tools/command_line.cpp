@@ -141,6 +141,15 @@ CLI::Validator oneOf(std::initializer_list<const char*> words) {
   return oneOf(textOf);
 }
 
+std::string shellWord(std::string_view word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=,.:/+%@";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) return std::string(word);
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 std::optional<int> parseCommandLine(CLI::App& app, const std::vector<std::string>& words) {
   if (app.get_version_ptr() == nullptr) {
     app.set_version_flag("--version", buildText())

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <type_traits>
 #include <vector>
@@ -68,6 +69,9 @@ CLI::Validator oneOf(const std::map<std::string, T>& valueOf) {
 }
 /// The same for words that stay as they are.
 CLI::Validator oneOf(std::initializer_list<const char*> words);
+
+/// A word as a shell reads it back: quoted where that is needed.
+std::string shellWord(std::string_view word);
 
 /// Parses a program's words, without its name; adds --version. Answers nothing when the program shall go on,
 /// else its exit status: 0 after help or version on standard output; 1 after "name: error: what is wrong" on

@@ -22,6 +22,7 @@
 #include "base/parallel.h"
 #include "base/writable.h"
 #include "tools/build_info.h"
+#include "tools/command_line.h"
 
 namespace pbrtmedia {
 namespace {
@@ -29,23 +30,6 @@ namespace {
 constexpr double kLiveInterval = 0.1, kPlainInterval = 5;  // seconds
 /// What is done so soon cost nothing: it was found in a journal.
 constexpr double kFree = 0.2;  // seconds
-
-/// As a shell reads it back.
-std::string shellWord(std::string_view word) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=,.:/+%@";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string_view::npos) return std::string(word);
-  std::string quoted = "'";
-  for (const char c : word) {
-    if (c == '\'') {
-      quoted += "'\\''";
-    } else {
-      quoted += c;
-    }
-  }
-  quoted += '\'';
-  return quoted;
-}
 
 std::string fileName(std::string_view path) { return std::filesystem::path(path).filename().string(); }
 
