@@ -105,7 +105,10 @@ def main() -> int:
         for round_number in range(o.rounds):
             turn = list(runs)
             order.shuffle(turn)
-            seconds = {name: seconds_of(command(*runs[name], round_number)) for name in turn}
+            seconds = {}
+            for name in turn:
+                (folder / "checkpoint").unlink(missing_ok=True)  # pbrt writes over none
+                seconds[name] = seconds_of(command(*runs[name], round_number))
             for name in runs:
                 ratios[name].append(seconds[name] / seconds["plain"])
             print(f"round {round_number + 1} of {o.rounds}: plain {seconds['plain']:.2f} s", file=sys.stderr, flush=True)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
 #   pm_mpi  pbrt-mpi (libopenmpi-dev); without it that program and its tests are left out
-# MPI is asked for in C: its C++ classes are no part of the standard any more.
+# Only the C interface of MPI is used: its C++ classes are no part of the standard any more.
 find_package(MPI QUIET COMPONENTS CXX)
 if(MPI_CXX_FOUND)
   add_library(pm_mpi INTERFACE)

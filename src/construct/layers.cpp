@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "construct/layers.h"
+#include "image/codecs.h"
 
 #include <span>
 #include <string_view>
@@ -43,7 +44,7 @@ LayerRequest readLayers(ParamReader& film, const ConstructOptions& options,
                         request.context + ": unknown layer \"" + name + '"' + suggestion(name, known));
     }
   }
-  if (!names.empty() && outfile.extension() != ".exr") {
+  if (!names.empty() && formatByExtension(outfile) != ImageFormat::Exr) {
     diagnostics.error(request.at, request.context +
                                       ": layers are channels of an OpenEXR file, and the image is \"" +
                                       outfile.string() +

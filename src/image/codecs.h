@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -20,6 +22,8 @@ enum class ImageFormat { Exr, Png, Pfm, Tga };
 const char* formatName(ImageFormat format);
 /// Whether files of this format hold sRGB-encoded values (PNG, TGA) rather than linear ones.
 constexpr bool isSrgbEncoded(ImageFormat f) { return f == ImageFormat::Png || f == ImageFormat::Tga; }
+/// By how a name ends, in capital letters or small ones; nothing for another extension, or none.
+std::optional<ImageFormat> formatByExtension(const std::filesystem::path& path);
 /// By the first bytes; TGA, which has no signature, by the name. Throws SceneError when it is none of them.
 ImageFormat detectFormat(std::span<const std::byte> bytes, const std::string& name);
 

@@ -30,15 +30,6 @@ std::string lowerCaseExtension(const std::filesystem::path& path) {
   return extension;
 }
 
-std::optional<ImageFormat> formatByExtension(const std::filesystem::path& path) {
-  const std::string extension = lowerCaseExtension(path);
-  if (extension == ".exr") return ImageFormat::Exr;
-  if (extension == ".png") return ImageFormat::Png;
-  if (extension == ".pfm") return ImageFormat::Pfm;
-  if (extension == ".tga") return ImageFormat::Tga;
-  return std::nullopt;
-}
-
 std::string encode(ImageFormat format, const Image& image, const WriteOptions& options) {
   switch (format) {
     case ImageFormat::Exr:
@@ -54,6 +45,15 @@ std::string encode(ImageFormat format, const Image& image, const WriteOptions& o
 }
 
 }  // namespace
+
+std::optional<ImageFormat> formatByExtension(const std::filesystem::path& path) {
+  const std::string extension = lowerCaseExtension(path);
+  if (extension == ".exr") return ImageFormat::Exr;
+  if (extension == ".png") return ImageFormat::Png;
+  if (extension == ".pfm") return ImageFormat::Pfm;
+  if (extension == ".tga") return ImageFormat::Tga;
+  return std::nullopt;
+}
 
 Image::Image(int width, int height, const std::vector<std::string>& channels)
     : Image(width, height, channels, std::vector<float>(checkedCount(width, height, channels.size()))) {}

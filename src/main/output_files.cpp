@@ -43,7 +43,9 @@ void reportSharedOutputs(const std::vector<SceneDescription>& worlds, const Opti
       name = options.outfile->string();
       at = world.worldBegin;
     }
-    const auto [earlier, isNew] = seen.try_emplace(fs::path(name).lexically_normal(), at);
+    fs::path key = fs::path(name).lexically_normal();
+    if (options.png) key.replace_extension(".png");  // which is written beside each
+    const auto [earlier, isNew] = seen.try_emplace(key, at);
     if (isNew) continue;
     diagnostics.tolerated(at, "the image \"" + name + "\" is that of the world at " +
                                   earlier->second.toString() +

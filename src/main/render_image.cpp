@@ -105,9 +105,6 @@ std::vector<RankShare> sharesOf(Ranks& ranks, const RankTraffic& before, double 
   return shares;
 }
 
-/// The others stop so much later, seconds, that the first is never told by them.
-constexpr double kLateness = .05;
-
 }  // namespace
 
 bool needsHalves(const Options& options) {

@@ -9,6 +9,7 @@
 #include "construct/scene_identity.h"
 #include "fields/learned_bounds.h"
 #include "image/channels.h"
+#include "image/codecs.h"
 #include "image/weighted_sums.h"
 #include "main/image_header.h"
 #include "main/messages.h"
@@ -72,7 +73,7 @@ void checkRange(const SampleRange& range, const Construction& scene, bool resume
   }
   if (const std::string why = scene.integrator->whyInOnePiece(); !why.empty())
     throw SceneError({}, option + "the image cannot be rendered in parts: " + why);
-  if (scene.outfile.extension() != ".exr") {
+  if (formatByExtension(scene.outfile) != ImageFormat::Exr) {
     throw SceneError({},
                      option + "the image must be an EXR file, which holds the sums that imgtool merge adds");
   }
@@ -111,7 +112,7 @@ void begin(const BuiltWorld& world, const WorldId& id, const Run& run) {
 std::string writeRendered(const std::filesystem::path& outfile, const Image& image, const Options& options,
                           int& status) {
   std::vector<std::filesystem::path> wanted = {outfile};
-  if (options.png && outfile.extension() != ".png") {
+  if (options.png && formatByExtension(outfile) != ImageFormat::Png) {
     wanted.push_back(outfile);
     wanted.back().replace_extension(".png");
   }

@@ -64,8 +64,11 @@ class Together {
   bool isOver_ = false;
 };
 
+/// The other ranks stop so much later, seconds, that the first is never told by them.
+constexpr double kLateness = .05;
+
 /// What a rank that is not the first does of what the options ask: it writes and says nothing, and its time
-/// is the first one's to give.
+/// ends a little later.
 Options optionsOfOthers(Options options);
 
 }  // namespace pbrtmedia

@@ -144,7 +144,7 @@ void TokenStream::pushValue(const Token& variable) {
 }
 
 void TokenStream::expand(Token& string) {
-  if (string.raw.find('$') == string.raw.npos && string.raw.find('#') == string.raw.npos) return;
+  if (string.raw.find_first_of("$#%") == string.raw.npos) return;
   try {
     std::optional<std::string> text = variables_.expanded(string.raw);
     if (!text) return;

@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::string_view kFrame = "frame";
 constexpr std::size_t kMostDigits = 99;
+/// Bytes of a string: far more than names of files have, and an end for strings that double each other.
+constexpr std::size_t kMostText = std::size_t{1} << 16;
 
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
@@ -113,6 +115,10 @@ std::optional<std::string> Variables::expanded(std::string_view quoted) {
       continue;
     }
     text += inString(inside.substr(0, colon), inside.substr(std::min(colon + 1, inside.size())));
+    if (text.size() > kMostText) {
+      throw std::invalid_argument("variables make the string longer than " + std::to_string(kMostText) +
+                                  " bytes");
+    }
     isChanged = true;
     i = end + 1;
   }

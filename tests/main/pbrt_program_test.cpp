@@ -810,6 +810,9 @@ TEST_F(Pbrt, TellsOfWorldsThatWriteOneFile) {
   const std::string film =
       "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2 \"string filename\" ";
   folder_.write("two.pbrt", film + "\"o.exr\"\n" + world + film + "\"./o.exr\"\n" + world);
+  folder_.write("png.pbrt", film + "\"o.exr\"\n" + world + film + "\"o.pfm\"\n" + world);
+  EXPECT_EQ(pbrt("png.pbrt").output.find("only the last one"), std::string::npos);
+  EXPECT_NE(pbrt("--png png.pbrt").output.find("only the last one rendered stays"), std::string::npos);
   const ProcessResult r = pbrt("two.pbrt");
   EXPECT_EQ(r.status, 0) << r.output;
   EXPECT_NE(r.output.find("two.pbrt:5:"), std::string::npos) << r.output;

@@ -124,6 +124,7 @@ TEST(Variables, TheFrameFillsItsPlaces) {
   EXPECT_EQ(name("a-####.exr"), "a-0012.exr");
   EXPECT_EQ(name("##/a.###.exr"), "12/a.012.exr");
   EXPECT_EQ(name("s.$F4.%02d.exr"), "s.0012.12.exr");
+  EXPECT_EQ(name("a-%04d.exr"), "a-0012.exr");
   EXPECT_EQ(name("${frame}-${frame:3}"), "12-012");
   Parsed p = parseWith(v, std::string("Translate 0 0 $frame\n") + kWorld);
   EXPECT_EQ(p.messages(), "");
@@ -160,6 +161,12 @@ TEST(Variables, ErrorsStandWhereTheVariableIs) {
            "place for one word");
   expectIn(message(with({{"n", "a"}}), "Film \"image\" \"string filename\" \"${n:4}\"\n"),
            "expected a whole number");
+  std::string doubling = "Define \"a0\" \"0123456789\"\n";
+  for (int i = 1; i < 40; ++i) {
+    const std::string of = "${a" + std::to_string(i - 1) + "}";
+    doubling += "Define \"a" + std::to_string(i) + "\" \"" + of + of + "\"\n";
+  }
+  expectIn(message({}, doubling), "longer than 65536 bytes");
   expectIn(message(with({{"n", "1"}}), "Film \"image\" \"string filename\" \"${n:x}\"\n"), "expected digits");
   expectIn(message(with({{"n", "1"}}), "Film \"image\" \"string filename\" \"${n:4000000000}\"\n"),
            "expected digits");

@@ -57,6 +57,28 @@ TEST(LayerAlone, StaysWhatItIsTheSecondTime) {
   EXPECT_EQ(layerAlone("b.exr", once, "albedo").data(), once.data());
 }
 
+/// A half float holds no distance beyond 65504, and no variance of 1e-9.
+TEST(LayerAlone, OfDataKeepsItsNumbers) {
+  const TemporaryFolder folder;
+  Image image(
+      1, 1,
+      {"R", "G", "B", "Z", "variance.B", "variance.G", "variance.R", "albedo.B", "albedo.G", "albedo.R"});
+  for (std::size_t c = 0; c < image.channelCount(); ++c) image.at(0, 0, c) = 1e-9f;
+  image.at(0, 0, 3) = 1e6f;
+  image.metadata = {{"layers", "depth,variance,albedo"}, {"samples", "4"}, {"seed", "1"}};
+  writeImage(folder.path() / "a.exr", image);
+  const auto alone = [&](const std::string& layer) {
+    const ProcessResult r = run("cd '" + folder.path().string() +
+                                "' && '" PBRT_MEDIA_IMGTOOL "' convert a.exr b.exr --layer " + layer);
+    EXPECT_EQ(r.status, 0) << r.output;
+    return readImage(folder.path() / "b.exr");
+  };
+  for (const std::string depth : {"depth", "Z"}) EXPECT_EQ(alone(depth).at(0, 0, 0), 1e6f);
+  for (const std::string variance : {"variance", "variance.G"}) EXPECT_EQ(alone(variance).at(0, 0, 0), 1e-9f);
+  EXPECT_EQ(alone("albedo").at(0, 0, 0), 0) << "a colour is half";
+  EXPECT_FALSE(alone("depth").metadata.contains("samples")) << "merge would average it as a colour";
+}
+
 TEST(LayerAlone, SaysWhatThereIs) {
   EXPECT_EQ(
       messageOf("albdeo"),

@@ -125,8 +125,10 @@ TEST(IdentityText, IsWhatIsMeasuredWhateverBecomesOfIt) {
   EXPECT_EQ(before, identity({"estimate", "--extinction", extinction.c_str(), "--trials", "9", "-o", "a.json",
                               "--format=json", "--resume", "j", "--quiet", "--nthreads=4", "--no-seconds"}));
   EXPECT_NE(before, identity({"estimate", "--extinction", extinction.c_str(), "--trials", "8"}));
+  const std::string joined = "--extinction=" + extinction, ofJoined = identity({"estimate", joined.c_str()});
   std::ofstream(table) << "0,1\n1,3\n";
   EXPECT_NE(before, identity({"estimate", "--extinction", extinction.c_str(), "--trials", "9"}));
+  EXPECT_NE(ofJoined, identity({"estimate", joined.c_str()}));
 }
 
 TEST(CommandText, NamesNoFolderAndNothingThatCannotMatter) {

@@ -87,7 +87,10 @@ int runConvert(const ConvertOptions& options) {
   try {
     Image image = loadLinear(options.input).image;
     if (!options.layer.empty()) image = layerAlone(options.input, image, options.layer);
-    writeImage(options.output, converted(std::move(image), options), options.write);
+    WriteOptions write = options.write;
+    const auto layer = image.metadata.find("layer");
+    if (layer != image.metadata.end() && isDataLayer(layer->second)) write.pixelType = PixelType::Float;
+    writeImage(options.output, converted(std::move(image), options), write);
   } catch (const std::invalid_argument& e) {
     throw std::runtime_error(options.input + ": " + e.what());
   }

@@ -167,8 +167,24 @@ Image layerAlone(const std::string& file, const Image& image, const std::string&
   out.metadata = image.metadata;
   out.metadata["layer"] = name;
   out.metadata.erase("layers");
-  for (const char* key : {"sampleRange", "sumsHash"}) out.metadata.erase(key);
+  // No render any more: a merge would average what is to be added.
+  for (const char* key : {"sampleRange", "sumsHash", "samples", "seed"}) out.metadata.erase(key);
   return out;
+}
+
+bool isDataLayer(const std::string& name) {
+  if (const auto layer = layerOfName(name)) return !isColour(infoOf(*layer).channels[0]);
+  if (name == "colour") return false;
+  // A channel, or what channels begin with.
+  const auto ofChannel = [&](std::string_view channel) {
+    return !channel.empty() && (channel == name || channel.substr(0, channel.find('.')) == name);
+  };
+  for (const LayerInfo& info : kLayers) {
+    for (const std::string_view channel : info.channels) {
+      if (ofChannel(channel)) return !isColour(channel);
+    }
+  }
+  return !isColour(name);
 }
 
 }  // namespace pbrtmedia

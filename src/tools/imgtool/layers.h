@@ -24,6 +24,9 @@ void mergeLayers(const std::vector<NamedImage>& inputs, const std::vector<double
 /// this made before stays as it is. Throws
 /// std::runtime_error, listing what there is, for others.
 Image layerAlone(const std::string& file, const Image& image, const std::string& name);
+/// Whether what --layer may call so is data and no colour (isColour), however an image of it alone calls its
+/// channels.
+bool isDataLayer(const std::string& name);
 /// The channels of it, by their names in the file, in the order of the image layerAlone makes.
 std::vector<std::string> channelsOfLayer(const std::string& file, const Image& image,
                                          const std::string& name);

@@ -212,7 +212,7 @@ void printLab(std::ostream& out) {
   out << R"(
 ## The lab
 
-`medialab COMMAND --help` tells all options; every file begins with the command that repeats it. `--resume FILE` (of `estimate`,
+`medialab COMMAND --help` tells all options; CSV and JSON begin with the command that repeats them. `--resume FILE` (of `estimate`,
 `converge`, `heatmap`) keeps what is measured: the same command goes on where it was stopped or killed.
 
 ```

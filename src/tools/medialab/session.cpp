@@ -78,6 +78,7 @@ bool isOneOf(std::string_view option, std::initializer_list<std::string_view> na
 /// A word of the command line, files that it names by their contents.
 std::string wordByContents(std::string_view word) {
   std::string text = shellWord(word);
+  if (word.starts_with("--")) word.remove_prefix(std::min(word.find('='), word.size() - 1) + 1);
   while (!word.empty()) {
     const std::filesystem::path file(word.substr(0, word.find(',')));
     word.remove_prefix(std::min(word.size(), file.native().size() + 1));
@@ -149,12 +150,12 @@ LabProgress::~LabProgress() {
 void LabProgress::update(std::size_t done, const std::string& what) {
   if (isSilent_) return;
   const double now = watch_.seconds();
-  if (now - last_ < (isTerminal_ ? kLiveInterval : kPlainInterval)) return;
-  last_ = now;
   if (now < kFree) {
     freeDone_ = done;
     freeSeconds_ = now;
   }
+  if (now - last_ < (isTerminal_ ? kLiveInterval : kPlainInterval)) return;
+  last_ = now;
   std::string line = title_ + ": " + std::to_string(done) + " of " + std::to_string(total_);
   if (!what.empty()) line += ", " + what;
   line += ", " + std::to_string(static_cast<long>(now)) + " s";
