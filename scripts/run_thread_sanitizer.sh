@@ -29,19 +29,25 @@ while read -r program filter; do
   "$bin/$program" --gtest_brief=1 --gtest_filter="$filter"
 done <<<"$tests"
 
-# Four threads, of which more than one touches a tile's neighbours, a pass, the same bounds, and the progress line.
+# Four threads, of which more than one touches a tile's neighbours, a pass, the same bounds, splats, photons, and the progress line.
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 render() {
   local scene=$1
   shift
-  echo "pbrt $scene $*"
+  echo "pbrt $scene ($integrator) $*"
+  sed "s/^Integrator \"volpath\"/Integrator \"$integrator\"/" "$root/tests/references/$scene.pbrt" >"$folder/scene.pbrt"
   "$bin/pbrt" --quiet --nthreads 4 --tile-size 8 --spp 4 --outfile "$folder/image.exr" --stats "$folder/stats.json" "$@" \
-    "$root/tests/references/$scene.pbrt"
+    "$folder/scene.pbrt"
 }
+integrator=volpath
 render smoke
 render smoke --mediumparams '"string bounds" "progressive"' --bounds-cache "$folder/bounds"
 render smoke --mediumparams '"string bounds" "progressive"' --bounds-cache "$folder/bounds"
 render fire
 render still-life
 render lighthouse --time 2
+integrator=bdpt
+render smoke
+integrator=sppm
+render spot-fog

@@ -9,31 +9,84 @@
 
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
+#include <tbb/task_scheduler_observer.h>
+
+extern "C" {  // of libtsan, in none of its headers
+void AnnotateIgnoreReadsBegin(const char* file, int line);
+void AnnotateIgnoreReadsEnd(const char* file, int line);
+void AnnotateIgnoreWritesBegin(const char* file, int line);
+void AnnotateIgnoreWritesEnd(const char* file, int line);
+}
 #endif
 
 namespace pbrtmedia {
 namespace {
 
-/// ThreadSanitizer sees nothing of how oneTBB, which it did not compile, hands work over and takes it back.
-/// It is told what a loop promises, and no more: what was done before a loop comes before every body, and
-/// what bodies do before whatever follows the loop.
+#ifdef __SANITIZE_THREAD__
+
+/// ThreadSanitizer sees nothing of how oneTBB, which it did not compile, hands work over and takes it back,
+/// but does see what oneTBB's headers read and write of their tasks, which lie on stacks of threads and are
+/// soon something else. So it does not look while a thread is in oneTBB, and is told what a loop promises,
+/// and no more: what was done before a loop comes before every body, and what bodies do before whatever
+/// follows the loop.
+class Watch {
+ public:
+  ~Watch() { set(true); }
+  void set(bool isOn) {
+    if (isOn == isOn_) return;
+    isOn_ = isOn;
+    if (isOn) {
+      AnnotateIgnoreReadsEnd(__FILE__, __LINE__);
+      AnnotateIgnoreWritesEnd(__FILE__, __LINE__);
+    } else {
+      AnnotateIgnoreReadsBegin(__FILE__, __LINE__);
+      AnnotateIgnoreWritesBegin(__FILE__, __LINE__);
+    }
+  }
+
+ private:
+  bool isOn_ = true;
+};
+thread_local Watch watch;
+
+/// Threads of oneTBB split tasks before they run a body.
+class Newcomers : public tbb::task_scheduler_observer {
+ public:
+  Newcomers() { observe(true); }
+  ~Newcomers() override { observe(false); }
+  void on_scheduler_entry(bool isWorker) override {
+    if (isWorker) watch.set(false);
+  }
+};
+
+void leave(char& event) {
+  static Newcomers newcomers;
+  __tsan_release(&event);
+  watch.set(false);
+}
+void enter(char& event) {
+  watch.set(true);
+  __tsan_acquire(&event);
+}
+
+#else
+
+void leave(char&) {}
+void enter(char&) {}
+
+#endif
+
+/// The order of what a loop does. Its maker goes into oneTBB, and comes back when this ends.
 struct LoopOrder {
   char begin = 0, end = 0;  // only their addresses matter
 
-#ifdef __SANITIZE_THREAD__
-  static void before(char& event) { __tsan_release(&event); }
-  static void after(char& event) { __tsan_acquire(&event); }
-#else
-  static void before(char&) {}
-  static void after(char&) {}
-#endif
-  LoopOrder() { before(begin); }
-  ~LoopOrder() { after(end); }
+  LoopOrder() { leave(begin); }
+  ~LoopOrder() { enter(end); }
 
-  /// While a thread runs bodies.
+  /// While a thread runs bodies: it comes out of oneTBB and goes back.
   struct Bodies {
-    explicit Bodies(LoopOrder& o) : order(o) { after(order.begin); }
-    ~Bodies() { before(order.end); }
+    explicit Bodies(LoopOrder& o) : order(o) { enter(order.begin); }
+    ~Bodies() { leave(order.end); }
     LoopOrder& order;
   };
 };
@@ -52,8 +105,10 @@ void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, count, 1),
       [&](const tbb::blocked_range<std::size_t>& range) {
+        const std::size_t end = range.end();
+        std::size_t i = range.begin();
         const LoopOrder::Bodies bodies(order);
-        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+        for (; i != end; ++i) body(i);
       },
       tbb::simple_partitioner());
 }
