@@ -58,8 +58,15 @@ struct Lens {
   float radius = 0, focalDistance = 1e6f;
 };
 
+/// Of lenses; what is all sharp looks the same at every scale.
+void warnOfScale(ParamReader& in, const AnimatedTransform& place) {
+  if (!cameraScales(place)) return;
+  in.diagnostics().warning(in.entity().location,
+                           "Camera: the transformation scales; lengths of the lens are in camera units");
+}
+
 /// PBRT-v3 has a lens only where its radius is above 0, and looks at the focal distance only then.
-Lens readLens(ParamReader& in, Lens fallback) {
+Lens readLens(ParamReader& in, const AnimatedTransform& place, Lens fallback) {
   Lens lens{in.findFloat("lensradius", fallback.radius),
             in.findFloat("focaldistance", fallback.focalDistance)};
   if (lens.radius < 0) {
@@ -73,7 +80,11 @@ Lens readLens(ParamReader& in, Lens fallback) {
                  ", expected > 0; the lens is left out, so that all is sharp; PBRT-v3 looks backwards");
     lens.radius = 0;
   }
-  if (lens.radius == 0) lens.focalDistance = fallback.focalDistance;
+  if (lens.radius > 0) {
+    warnOfScale(in, place);
+  } else {
+    lens.focalDistance = fallback.focalDistance;
+  }
   return lens;
 }
 
@@ -107,7 +118,7 @@ std::unique_ptr<Camera> readPerspective(ParamReader& in, const AnimatedTransform
     p.fov = -p.fov;
     p.screenWindow = {-p.screenWindow.xMin, -p.screenWindow.xMax, -p.screenWindow.yMin, -p.screenWindow.yMax};
   }
-  const Lens lens = readLens(in, {p.lensRadius, p.focalDistance});
+  const Lens lens = readLens(in, place, {p.lensRadius, p.focalDistance});
   p.lensRadius = lens.radius;
   p.focalDistance = lens.focalDistance;
   const Shutter shutter = readShutter(in);
@@ -121,7 +132,7 @@ std::unique_ptr<Camera> readOrthographic(ParamReader& in, const AnimatedTransfor
   OrthographicCamera::Params p;
   p.fullResolution = film.fullResolution;
   p.screenWindow = readScreenWindow(in, film.fullResolution);
-  const Lens lens = readLens(in, {p.lensRadius, p.focalDistance});
+  const Lens lens = readLens(in, place, {p.lensRadius, p.focalDistance});
   p.lensRadius = lens.radius;
   p.focalDistance = lens.focalDistance;
   const Shutter shutter = readShutter(in);
@@ -179,6 +190,7 @@ std::unique_ptr<Camera> readRealistic(ParamReader& in, const AnimatedTransform& 
                                  ": the image is black: without \"simpleweighting\" it is in proportion to "
                                  "\"shutterclose\" minus \"shutteropen\", which is 0");
   }
+  warnOfScale(in, place);
   const auto lenses = readLenses(in, aperture);
   if (!lenses) return nullptr;
   return std::make_unique<RealisticCamera>(place, LensSystem(*lenses), p);
@@ -198,11 +210,6 @@ std::unique_ptr<Camera> readCamera(SceneDescription& scene, const FilmSize& film
   if (place.start().isSingular() || place.end().isSingular()) {
     diagnostics.error(entity.location, "Camera: the transformation is singular: it has no inverse");
     return nullptr;
-  }
-  if (cameraScales(place)) {
-    diagnostics.warning(
-        entity.location,
-        "Camera: the transformation scales; focal distance and lens radius are in camera units");
   }
   if (!entity.given) entity.type = "perspective";
   const auto* plugin = findPlugin<ReadCamera>(kCameras, entity, "Camera", "", diagnostics);

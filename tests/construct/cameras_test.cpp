@@ -123,7 +123,9 @@ TEST(ConstructCamera, ReadsLensFiles) {
 }
 
 TEST(ConstructCamera, WarnsOfScaleAndExchangedShutterTimes) {
-  EXPECT_TRUE(with("Scale 2 2 2 Camera \"perspective\"").warns("the transformation scales"));
+  const std::string scaled = "Scale 2 2 2 Camera \"perspective\"";
+  EXPECT_TRUE(with(scaled + " \"float lensradius\" .1").warns("the transformation scales"));
+  EXPECT_FALSE(with(scaled).warns("the transformation scales"));
   const Attempt a = with("Camera \"perspective\" \"float shutteropen\" 1 \"float shutterclose\" 0.5");
   ASSERT_TRUE(a.warns("the two times are exchanged")) << a.messages();
   EXPECT_EQ(a.made->camera->generateRay({1, 1}, {0.5f, 0.5f}, 0).ray.time, 0.5f);

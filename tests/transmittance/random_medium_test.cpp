@@ -131,7 +131,7 @@ TEST(RandomMedium, WithoutExplorersIsResidualTrackingAtTheRateOfTheBounds) {
     Rng a(kSeed), b(kSeed);
     for (int i = 0; i < 500; ++i) {
       const double random =
-          runEstimator(RandomMedium{.explorers = 0, .floor = 1}, c.line, Channels<1>{c.tau}, a).value[0];
+          runEstimator(RandomMedium{.explorers = 0, .rateFloor = 1}, c.line, Channels<1>{c.tau}, a).value[0];
       const double residual = runEstimator(ResidualRatioTracking(), c.line, Channels<1>{c.tau}, b).value[0];
       ASSERT_NEAR(random, residual, 1e-9 * std::abs(residual)) << c.name;
     }

@@ -27,9 +27,9 @@ namespace pbrtmedia {
 /// Deviations: the main part is kept within the bounds of each super-voxel, so with no explorers this is
 /// residual ratio tracking, and where bounds leave nothing open it is exact. sigma_samp is not learned from
 /// rays before but follows from this one: the largest error that leaving out an explorer would have made, not
-/// above the largest difference B that the local bounds allow, nor below `floor` times B. With the default of
-/// one half, what explorers missed in an otherwise clear stretch stays stable in the paper's sense (w <= 2
-/// sigma_t): no second moment above 1. A `samplingextinction` given is used as it is, everywhere.
+/// above the largest difference B that the local bounds allow, nor below `rateFloor` times B. With the
+/// default of one half, what explorers missed in an otherwise clear stretch stays stable in the paper's sense
+/// (w <= 2 sigma_t): no second moment above 1. A `samplingextinction` given is used as it is, everywhere.
 ///
 /// Bias: none for any bounds that differ where the density is not theirs. Range: any sign, above 1 too.
 /// Variance in one channel: T^2 expm1(integral of sigma_diff^2 / sigma_samp), Eqs. (16) and (17). Cost: the
@@ -39,7 +39,7 @@ struct RandomMedium {
 
   std::uint32_t explorers = 10;   ///< see ExploredControl
   double samplingExtinction = 0;  ///< [1/length]; 0: automatic
-  double floor = 0.5;             ///< of the automatic one, in (0, 1], times the largest difference possible
+  double rateFloor = 0.5;         ///< of the automatic one, in (0, 1], times the largest difference possible
   std::uint64_t maxLookups = 0;   ///< see LookupLimit; explorers count
 
   static constexpr auto parameters() {
@@ -51,7 +51,7 @@ struct RandomMedium {
                   "rate of the points that sample the difference to the main part, per unit of length; 0: "
                   "automatic, from the explorers and the bounds",
                   0, 1e9},
-        Parameter{"floor", &RandomMedium::floor,
+        Parameter{"ratefloor", &RandomMedium::rateFloor,
                   "least automatic rate, as a share of the largest difference that the bounds allow", 1e-3,
                   1},
         Parameter{"maxlookups", &RandomMedium::maxLookups, LookupLimit::kWalkHelp, 0}};
@@ -95,8 +95,9 @@ struct RandomMedium {
         if (tally.capped != 0) return true;
         const double enter = stretch.at(stretch.a, lower, upper), exit = stretch.at(stretch.b, lower, upper);
         const double largest = std::max(upper - std::min(enter, exit), std::max(enter, exit) - lower);
-        const double rate = samplingExtinction > 0 ? samplingExtinction
-                                                   : sigmaMax * std::clamp(error, floor * largest, largest);
+        const double rate = samplingExtinction > 0
+                                ? samplingExtinction
+                                : sigmaMax * std::clamp(error, rateFloor * largest, largest);
         walk.cross(stretch.a, stretch.b, rate, [&](double s) {
           if (limit.reached(tally)) return false;
           const double difference = boundedLookup(line, s, upper, tally) - stretch.at(s, lower, upper);
