@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from .plots import COLOURS, plain_ticks, style
+from .plots import COLOURS, dress, plain_ticks, style
 from .problems import CaseError
 
 from matplotlib.axes import Axes  # isort: skip  (plots chooses the backend first)
@@ -128,11 +128,7 @@ def lab_figure(rows: list[Row], over: str) -> Figure:
     for axes in all_axes[len(panels):]:
         axes.remove()
     for axes, (title, part) in zip(all_axes, panels.items()):
-        axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=14 if not converges else 6)
-        axes.grid(True, color="#ececec", linewidth=0.7)
-        axes.set_axisbelow(True)
-        for name in ("top", "right"):
-            axes.spines[name].set_visible(False)
+        dress(axes, title, 6 if converges else 14)
         if converges:
             converge_panel(axes, part, over, order)
         else:

@@ -84,6 +84,15 @@ def plain_ticks(line: Axis, low: float, high: float) -> None:
     line.set_major_formatter(FuncFormatter(lambda value, _: tick_text(value, len(factors) == 1)))
 
 
+def dress(axes: Axes, title: str = "", pad: float = 6) -> None:
+    """The look of a panel: its title, a faint grid behind the curves, no box."""
+    axes.set_title(title, loc="left", fontsize=9, fontweight="bold", pad=pad)
+    axes.grid(True, color="#ececec", linewidth=0.7)
+    axes.set_axisbelow(True)
+    for name in ("top", "right"):
+        axes.spines[name].set_visible(False)
+
+
 def cut_off_outliers(axes: Axes, scene: SceneResult, axis: str, metric: str) -> None:
     """Ends the plot a factor of 100 above nine tenths of the points: one firefly must not flatten all other curves."""
     found = [error_of(p, axis, metric).value for r in scene.results for p in r.curve if (p.costs[axis] or 0) > 0]

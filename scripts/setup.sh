@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-2-Clause
-# Sourced by ./render and ./check: installs what is missing, then configures and builds one preset.
+# Sourced by ./render, ./figures and ./check: installs what is missing, then configures and builds one preset.
 
 # One compiler cache for every checkout of this project on the machine.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=time_macros
@@ -7,12 +7,12 @@ export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1 CCACHE_SLOPPINESS=time_macros
 # say <text>: one line about what is being done, on standard error.
 say() { printf '\033[1m==>\033[0m %s\n' "$*" >&2; }
 
-# install_packages <render|check>: Debian packages of scripts/packages.txt that are not there yet.
+# install_packages <render|figures|check>: Debian packages of scripts/packages.txt that are not there yet.
 install_packages() {
   local purpose=$1 missing=() name note
   while read -r name note; do
     case $name in '' | '#'*) continue ;; esac
-    [ "$note" = check ] && [ "$purpose" = render ] && continue
+    case $purpose:$note in render:?* | figures:check) continue ;; esac
     dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q '^install ok installed$' || missing+=("$name")
   done <"$root/scripts/packages.txt"
   [ ${#missing[@]} -eq 0 ] && return 0

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Figures that cannot be made yet, and why."""
+
+NOT_THERE = {
+    "georgiev-2019-01": "it needs a scene of our own like the paper's chess game, whose models are not public",
+    "georgiev-2019-09": "it needs a dense cloud in a glass sphere of our own, the paper's volume is not in the repository",
+    "georgiev-2019-11": "a medium's patterns stratify the estimates of a pixel, but no scene of ours shows the smoke box yet; figure 12 measures the same on lines",
+    "kettunen-2021-01": "it needs our own smoke in glass, measured only on paths of two transmissions in a row, which no integrator tells apart",
+    "kettunen-2021-09": "an illustration of combs, which no claim goes with",
+    "kettunen-2021-10": "an illustration of the discontinuity at the end points; figure 13 measures what matching them gains",
+    "kettunen-2021-11": "it needs four volumes of our own (plume, box, cloud, glass); the plume alone is there, see figure 16",
+    "szirmay-kalos-2017-11": "light samples driven by attenuation, source and scattering are not in the renderer yet",
+    "szirmay-kalos-2017-12": "as figure 11",
+    "misso-2022-04": "images of derivatives are not in the renderer yet",
+    "misso-2022-05": "images of derivatives are not in the renderer yet",
+    "misso-2022-06": "images of derivatives are not in the renderer yet",
+    "misso-2022-10": "debiased photon mapping is not in the renderer yet",
+    "misso-2022-11": "debiased photon mapping is not in the renderer yet",
+    "misso-2022-12": "debiased photon mapping is not in the renderer yet",
+    "misso-2022-13": "reciprocal estimation is not in the lab yet, and specular manifold sampling not in the renderer",
+}

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""docs/figures.md: all figures with their pictures and verdicts, and what is not there yet."""
+import json
+from pathlib import Path
+
+from . import plotting
+from .catalogue import PAPERS, Entry, paper_of, title_of
+from .not_there import NOT_THERE
+from .programs import FigureError
+
+MOST_BYTES = 2_000_000
+HEAD = """\
+# Figures of papers
+
+This page is generated: `./figures --all`, then `./figures --docs`. `./figures NAME` makes one of them: data (CSV), plots (PNG, PDF) and verdicts in
+`build/figures/NAME/`, `--quick` a smaller one in `build/figures-quick/`. Each has a second plot that papers mostly lack: error against run time, on two cores
+of a machine that did other things too.
+
+A verdict is *reproduced* when all of our interval (95 %) agrees with the claim, *not reproduced* when none of it does, and *cannot be tested* otherwise.
+Assets of the papers are not public: scenes and densities are our own of the same kind, and what is compared are rankings and ratios. Where numbers
+are known independently (closed forms, other people's simulations), the scripts compare with them and fail when they differ; "compared" counts these.
+Counts of look-ups include all look-ups of an estimate, end points and pivots too; free flight is not counted. `p-series-cmf` evaluates the levels that published code
+does, one more than printed.
+"""
+
+
+def result_of(entry: Entry, out: Path) -> dict:
+    path = out / entry.name / "result.json"
+    if not path.is_file():
+        raise FigureError(f"no {path}: run ./figures {entry.name}")
+    return json.loads(path.read_text())
+
+
+def summary(entries: list[Entry], results: dict[str, dict]) -> list[str]:
+    counts = {"reproduced": 0, "not reproduced": 0, "cannot be tested": 0}
+    lines = ["| figure | | verdicts |", "| --- | --- | --- |"]
+    for entry in entries:
+        outcomes = [v["outcome"] for v in results[entry.name]["verdicts"]]
+        for outcome in outcomes:
+            counts[outcome] += 1
+        told = ", ".join(f"{outcomes.count(o)} {o}" for o in counts if o in outcomes)
+        lines.append(f"| [`{entry.name}`](#{entry.name}) | {entry.figure.title} | {told} |")
+    total = ", ".join(f"{n} {o}" for o, n in counts.items())
+    return [f"{len(entries)} figures, {sum(counts.values())} claims: {total}.", "", *lines]
+
+
+def section(entry: Entry, result: dict) -> list[str]:
+    name = entry.name
+    verdicts = [f"- {v['claim']}. {v['number']}: **{v['outcome']}**" + (f", because {v['why']}" if v["why"] else "") for v in result["verdicts"]]
+    compared = [f"", f"Compared with known numbers: {result['compared']}."] if result["compared"] else []
+    return [f"### {name}", "", f"{title_of(name)}: {entry.figure.title}. {entry.figure.reported}", "", f"*Ours*: {entry.figure.settings}", "",
+            *verdicts, *compared, "", f"![{name}](figures/{name}.png)", f"![{name}: error against run time](figures/{name}-time.png)", ""]
+
+
+def page_text(entries: list[Entry], results: dict[str, dict]) -> str:
+    lines = [HEAD, *summary(entries, results), ""]
+    for paper, reference in PAPERS.items():
+        lines += [f"## {reference}", ""]
+        for entry in entries:
+            if entry.paper == paper:
+                lines += section(entry, results[entry.name])
+        missing = [f"- `{name}`, {title_of(name).lower()}: not there yet: {why}" for name, why in NOT_THERE.items() if paper_of(name) == paper]
+        lines += [*missing, ""] if missing else []
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def write_page(entries: list[Entry], out: Path, docs: Path) -> int:
+    """Writes the page and its pictures; how many bytes these are."""
+    results = {e.name: result_of(e, out) for e in entries}
+    folder = docs / "figures"
+    folder.mkdir(exist_ok=True)
+    for old in folder.glob("*.png"):
+        old.unlink()
+    total = 0
+    for entry in entries:
+        for suffix in ("", "-time"):
+            data = plotting.shrink(out / entry.name / f"{entry.name}{suffix}.png")
+            (folder / f"{entry.name}{suffix}.png").write_bytes(data)
+            total += len(data)
+    if total > MOST_BYTES:
+        raise FigureError(f"the pictures have {total} bytes, more than {MOST_BYTES}")
+    (docs / "figures.md").write_text(page_text(entries, results))
+    return total

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: BSD-2-Clause
+from figurekit.catalogue import Figure
+from figurekit.run import Run
+from figurekit.sphere import transmittance_images
+
+FIGURE = Figure(
+    title="Transmittance of a Perlin medium",
+    reported="At equal look-ups the random medium has less error than ray marching, and far less than Woodcock tracking.",
+    settings="Our Perlin medium of twelve octaves in a sphere (the paper's frequencies are unknown), about 10 look-ups a pixel, Woodcock and marching under one bound of 1; "
+             "the random medium with 6 explorers a ray and its automatic rate. 48 x 48 pixels, 16 renders each.",
+    seconds=40)
+
+
+def make(run: Run) -> None:
+    transmittance_images(run, "perlin", 10, has_marching=True)

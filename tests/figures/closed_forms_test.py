@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""Exact moments against ones that are known otherwise."""
+import math
+import unittest
+
+import numpy as np
+
+from figurekit.closed_forms import Roulette, bk_variance, poisson, ratio_variance, tracking_variance, ubk_variance
+from figurekit.known import rows_of
+from figurekit.printed import disagreement
+
+
+class ClosedFormsTest(unittest.TestCase):
+    def test_poisson_is_a_law(self):
+        law = poisson(7, 80)
+        self.assertAlmostEqual(law.sum(), 1, places=12)
+        self.assertAlmostEqual((law * np.arange(81)).sum(), 7, places=10)
+
+    def test_ratio_tracking_has_its_variance_under_proportional_controls(self):
+        self.assertAlmostEqual(tracking_variance(lambda x: np.full_like(x, 2.0), 1, 3), ratio_variance(2, 3), places=12)
+
+    def test_ratio_tracking_that_meets_its_lower_control_has_none(self):
+        self.assertAlmostEqual(tracking_variance(lambda x: np.full_like(x, 2.0), 1, 3, 2), 0, places=14)
+
+    def test_the_roulette_has_its_mean_number_of_terms(self):
+        self.assertAlmostEqual(Roulette(1).mean_orders(), math.e - 1, places=12)
+        self.assertAlmostEqual(Roulette(2, 0.9).mean_orders(), 0.1 * (2 + (math.exp(2) - 5) / 2), places=12)
+
+    def test_one_factor_more_than_needed_has_no_variance_at_the_true_pivot(self):
+        for variance in (bk_variance, ubk_variance):
+            self.assertAlmostEqual(variance(Roulette(2), -1.5, 0, 0, 1.5), 0, places=14)
+
+    def test_symmetrisation_does_nothing_to_factors_that_do_not_vary(self):
+        for delta in (-1.0, 0.3, 1.0):
+            self.assertAlmostEqual(bk_variance(Roulette(2), -1 - delta, delta, 0, 1) / ubk_variance(Roulette(2), -1 - delta, delta, 0, 1), 1, places=9)
+
+    def test_moments_are_those_of_a_simulation(self):
+        rng, roulette = np.random.default_rng(11), Roulette(1)
+        weights, pivot, found = roulette.weights(), -1.2, {bk_variance: [], ubk_variance: []}
+        for _ in range(20_000):
+            u, n = rng.random(), 0
+            while roulette.reach[n + 1] > u:
+                n += 1
+            factors = 0.2 + 0.5 * rng.standard_normal(n)
+            means = [1.0] + [0.0] * n  # elementary symmetric means
+            for i, x in enumerate(factors, 1):
+                for k in range(min(i, n), 0, -1):
+                    means[k] += k / i * (means[k - 1] * x - means[k])
+            products = np.concatenate([[1.0], np.cumprod(factors)])
+            found[bk_variance].append(math.exp(pivot) * float(weights[:n + 1] @ products))
+            found[ubk_variance].append(math.exp(pivot) * float(weights[:n + 1] @ np.array(means)))
+        for variance, values in found.items():
+            squares = (np.array(values) - math.exp(-1))**2
+            self.assertLess(abs(squares.mean() - variance(roulette, pivot, 0.2, 0.25, 1)), 5 * squares.std() / math.sqrt(len(squares)))
+            self.assertLess(abs(np.mean(values) - math.exp(-1)), 5 * np.std(values) / math.sqrt(len(values)))
+
+    def test_known_tables_are_met(self):
+        roulette = Roulette(2)
+        for row in rows_of("fluctuating_media"):
+            spread, delta = float(row["s2"]), float(row["delta"])
+            for key, variance in (("bk", bk_variance), ("ubk", ubk_variance)):
+                self.assertLessEqual(disagreement(row[key], variance(roulette, -1 - delta, delta, spread, 1)), 1, (row, key))
