@@ -82,6 +82,7 @@ class Collector {
 std::uint64_t SceneIdentity::hash() const {
   std::uint64_t all = hashCombine(text, hashBytes(mediumParams));
   for (const File& f : files) all = hashCombine(all, hashBytes(f.name), f.content);
+  if (!derivative.empty()) all = hashCombine(all, hashBytes(derivative));
   return all;
 }
 

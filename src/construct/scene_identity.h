@@ -17,9 +17,10 @@ struct SceneIdentity {
     std::uint64_t content;  ///< hash of its bytes, packed as they are
     bool operator==(const File&) const = default;
   };
-  std::uint64_t text = 0;    ///< all text read, with its includes and the spectra read from files
-  std::string mediumParams;  ///< of the command line, as typed
-  std::vector<File> files;   ///< volumes, meshes, images, ..., by name
+  std::uint64_t text = 0;      ///< all text read, with its includes and the spectra read from files
+  std::string mediumParams{};  ///< of the command line, as typed
+  std::vector<File> files{};   ///< volumes, meshes, images, ..., by name
+  std::string derivative{};    ///< of which the image is; "": it is that of the scene
 
   /// Of all the above.
   std::uint64_t hash() const;

@@ -63,6 +63,7 @@ std::vector<ImageCause> causesOf(const SceneIdentity& identity, const Constructi
   std::string layers;
   for (const std::string& name : film.layers().channelNames()) layers += (layers.empty() ? "" : ",") + name;
   causes.push_back({"the layers", layers});
+  if (!identity.derivative.empty()) causes.push_back({"--derivative", identity.derivative});
   return causes;
 }
 

@@ -31,6 +31,7 @@ std::string hexadecimal(std::uint64_t value) {
 void addIdentity(Image& image, const SceneIdentity& identity) {
   image.metadata["sceneHash"] = hexadecimal(identity.hash());
   image.metadata["sceneText"] = hexadecimal(identity.text);
+  if (!identity.derivative.empty()) image.metadata["derivative"] = identity.derivative;
   if (!identity.mediumParams.empty()) image.metadata["mediumParams"] = identity.mediumParams;
   // A header is no place for thousands of names.
   constexpr std::size_t kMostFiles = 64;

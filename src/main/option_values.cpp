@@ -44,6 +44,13 @@ CLI::Validator frameRange() {
   return CLI::Validator(check, "");
 }
 
+CLI::Validator variableName() {
+  const auto check = [](std::string& text) -> std::string {
+    return Variables::isName(text) ? "" : "found " + text + ", expected a name of letters, digits and _";
+  };
+  return CLI::Validator(check, "");
+}
+
 CLI::Validator definition() {
   const auto check = [](std::string& text) -> std::string {
     const std::size_t equals = text.find('=');

@@ -19,6 +19,8 @@ CLI::Validator sampleRange();
 CLI::Validator fileName();
 /// Of --frames: see parseFrameRange.
 CLI::Validator frameRange();
+/// Of --derivative: the name of a variable.
+CLI::Validator variableName();
 /// Of --define: NAME=VALUE.
 CLI::Validator definition();
 

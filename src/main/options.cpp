@@ -44,6 +44,7 @@ class OptionList {
         ->type_name("FILE");
     addImage();
     addVariables();
+    addDerivative();
     addSampling();
     addMedia();
     addFiles();
@@ -60,6 +61,7 @@ class OptionList {
  private:
   void addImage();
   void addVariables();
+  void addDerivative();
   void addSampling();
   void addMedia();
   void addFiles();
@@ -68,13 +70,14 @@ class OptionList {
   void addReports();
   void addWatching();
   void addOther();
+  void readDerivative();
   std::string normalised(const std::string& word) const;
   /// The words as CLI11 shall read them.
   std::vector<std::string> prepared(const std::vector<std::string>& words) const;
   void setUpLog() const;
 
-  static constexpr const char *kRendering = "Rendering", *kChecks = "Checks", *kReports = "Reports",
-                              *kWatching = "Watching", *kOther = "Other";
+  static constexpr const char *kRendering = "Rendering", *kDerivatives = "Derivatives", *kChecks = "Checks",
+                              *kReports = "Reports", *kWatching = "Watching", *kOther = "Other";
 
   CLI::App app_{
       "Renders PBRT-v3 scene files.\n"
@@ -83,6 +86,7 @@ class OptionList {
   Options options_;
   std::vector<std::string> scenes_;
   std::vector<std::string> defines_;
+  DerivativeOptions derivative_;
   std::vector<float> crop_;
   std::vector<std::string> layers_;
   std::string outfile_, frames_, samples_, stats_, boundsCache_, checkpoint_, resume_, convergence_,
@@ -130,6 +134,53 @@ void OptionList::addVariables() {
       ->check(frameRange())
       ->type_name("A:B")
       ->group(kRendering);
+}
+
+void OptionList::addDerivative() {
+  using Difference = DifferenceSchedule::Difference;
+  using Debias = DifferenceSchedule::Debias;
+  DifferenceSchedule::Params& difference = derivative_.difference;
+  CLI::Option* const name =
+      app_.add_option("--derivative", derivative_.variable,
+                      "render how the image changes with $NAME, from differences (docs/derivatives.md)")
+          ->check(variableName())
+          ->type_name("NAME")
+          ->group(kDerivatives);
+  CLI::Option* const step =
+      app_.add_option("--step", difference.step, "of the variable, between two images; of either sign")
+          ->check(number(NumberRange::any()))
+          ->type_name("H")
+          ->group(kDerivatives);
+  name->needs(step);
+  step->needs(name);
+  const std::map<std::string, Difference> differences = {{"forward", Difference::Forward},
+                                                         {"central", Difference::Central}};
+  app_.add_option("--difference", difference.difference,
+                  "forward (default): from the value to a step above; central: from a step below")
+      ->transform(oneOf(differences))
+      ->needs(name)
+      ->type_name("KIND")
+      ->group(kDerivatives);
+  const std::map<std::string, Debias> debiased = {
+      {"none", Debias::None}, {"single", Debias::Single}, {"progressive", Debias::Progressive}};
+  app_.add_option("--debias", difference.debias,
+                  "none (default): one step for all passes; single: each pass corrects it by a level drawn, "
+                  "without bias; progressive: steps shrink from pass to pass")
+      ->transform(oneOf(debiased))
+      ->needs(name)
+      ->type_name("HOW")
+      ->group(kDerivatives);
+  app_.add_option("--step-decay", difference.decay, "the step of progressive pass k is H k^-D (default 1/3)")
+      ->needs(name)
+      ->check(number({.least = 0, .most = 1, .excludesLeast = true}))
+      ->type_name("D")
+      ->group(kDerivatives);
+  app_.add_option("--pass-samples", derivative_.samplesPerPass,
+                  "samples per pixel of a pass, which share step and level (default 1/64 of all, 1 to 16)")
+      ->needs(name)
+      ->check(wholeNumber(1, 1 << 20))
+      ->type_name("N")
+      ->group(kDerivatives);
 }
 
 void OptionList::addSampling() {
@@ -319,6 +370,14 @@ std::vector<std::string> OptionList::prepared(const std::vector<std::string>& wo
   return known;
 }
 
+void OptionList::readDerivative() {
+  if (derivative_.variable.empty()) return;
+  derivative_.difference.seed = options_.seed;
+  options_.derivative = derivative_;
+  // Its numbers have any size, and are there to be reckoned with.
+  if (app_.count("--pixeltype") == 0) options_.write.pixelType = PixelType::Float;
+}
+
 OptionsOutcome OptionList::read(const std::vector<std::string>& words) {
   if (const std::optional<int> status = parseCommandLine(app_, prepared(words)))
     return {std::nullopt, *status};
@@ -329,6 +388,7 @@ OptionsOutcome OptionList::read(const std::vector<std::string>& words) {
     const std::size_t equals = define.find('=');
     options_.variables.set(define.substr(0, equals), std::string_view(define).substr(equals + 1));
   }
+  readDerivative();
   if (!frames_.empty()) options_.frames = parseFrameRange(frames_);
   if (!outfile_.empty()) options_.outfile = outfile_;
   if (!samples_.empty()) options_.samples = parseSampleRange(samples_);

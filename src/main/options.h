@@ -11,6 +11,7 @@
 #include "base/frame_names.h"
 #include "display/endpoint.h"
 #include "image/image.h"
+#include "render/difference_schedule.h"
 #include "scene/variables.h"
 
 namespace pbrtmedia {
@@ -22,12 +23,21 @@ struct SampleRange {
   std::int64_t first = 0, end = 0;
 };
 
+/// What `--derivative` asks for.
+struct DerivativeOptions {
+  std::string variable{};
+  /// The seed is that of the render; the value that of the scene, which `atItsValue` finds.
+  DifferenceSchedule::Params difference{};
+  std::optional<int> samplesPerPass{};
+};
+
 /// The command line of `pbrt`, checked.
 struct Options {
-  std::vector<std::filesystem::path> scenes;  ///< "-" alone: standard input
-  Variables variables{};                      ///< those of --define
-  std::optional<FrameRange> frames;           ///< rendered one after the other
-  unsigned threads = 0;                       ///< 0: one per processor
+  std::vector<std::filesystem::path> scenes;    ///< "-" alone: standard input
+  Variables variables{};                        ///< those of --define
+  std::optional<FrameRange> frames;             ///< rendered one after the other
+  std::optional<DerivativeOptions> derivative;  ///< the image is that of a derivative
+  unsigned threads = 0;                         ///< 0: one per processor
   std::optional<std::filesystem::path> outfile;
   std::optional<std::array<float, 4>> cropWindow;  ///< x0 x1 y0 y1, fractions
   std::optional<std::vector<std::string>> layers;  ///< instead of the scene's

@@ -13,6 +13,7 @@
 #include "base/stop_signal.h"
 #include "base/stopwatch.h"
 #include "image/image.h"
+#include "main/derivative.h"
 #include "main/frames.h"
 #include "main/kept_bounds.h"
 #include "main/messages.h"
@@ -76,6 +77,10 @@ void checkWorlds(const std::vector<SceneDescription>& worlds, const Options& opt
     diagnostics.error({}, "--convergence is of one image, and there are " + std::to_string(worlds.size()) +
                               " WorldBegin … WorldEnd blocks; render them apart");
   }
+  if (options.derivative && worlds.size() > 1) {
+    diagnostics.error({}, "--derivative is of one image, and there are " + std::to_string(worlds.size()) +
+                              " WorldBegin … WorldEnd blocks; render them apart");
+  }
   reportSharedOutputs(worlds, options, diagnostics);
   reportLostFiles(worlds, options, diagnostics);
 }
@@ -108,6 +113,12 @@ std::vector<SceneDescription> readWorlds(const Options& options, Watching& watch
 
 /// What cannot be shared out. Throws SceneError, on all ranks alike.
 void checkShareable(const Options& options) {
+  if (options.derivative) {
+    throw SceneError(
+        {},
+        "--derivative: several processes cannot share the passes of a derivative; render it with "
+        "one, or with other seeds on each machine, and imgtool merge takes the mean");
+  }
   for (const auto& scene : options.scenes) {
     if (scene == "-") {
       throw SceneError({},
@@ -118,7 +129,8 @@ void checkShareable(const Options& options) {
 }
 
 Outcome renderScenes(const Options& given, Together& together) {
-  const Options options = together.isFirst() ? given : optionsOfOthers(given);
+  const Options options =
+      together.step([&] { return atItsValue(together.isFirst() ? given : optionsOfOthers(given)); });
   std::optional<Checkpoints> checkpoints;
   together.step([&] {
     if (!together.ranks().isAlone()) checkShareable(options);

@@ -11,6 +11,7 @@
 #include "image/channels.h"
 #include "image/codecs.h"
 #include "image/weighted_sums.h"
+#include "main/derivative.h"
 #include "main/image_header.h"
 #include "main/messages.h"
 #include "main/output_files.h"
@@ -18,6 +19,7 @@
 #include "main/warnings.h"
 #include "media/medium.h"
 #include "scene/param_text.h"
+#include "scene/parser.h"
 
 namespace pbrtmedia {
 namespace {
@@ -26,21 +28,25 @@ namespace {
 struct BuiltWorld {
   Construction scene;
   SceneIdentity identity;
+  std::unique_ptr<DerivativeScenes> derivative;  ///< refers to `scene`
 };
+
+ConstructOptions constructOptionsOf(const Options& options, Diagnostics& diagnostics) {
+  return {.outfile = options.outfile,
+          .cropWindow = options.cropWindow,
+          .quick = options.quick,
+          .samplesPerPixel = options.samplesPerPixel,
+          .seed = options.seed,
+          .layers = options.layers,
+          .mediumParams = parseParams(options.mediumParams, "--mediumparams", diagnostics)};
+}
 
 /// Throws ShownFailure when there are errors, which are shown.
 BuiltWorld build(SceneDescription& description, const Run& run) {
   const Options& options = run.options;
   Diagnostics diagnostics;
   diagnostics.strict = options.strict;
-  const ConstructOptions build{
-      .outfile = options.outfile,
-      .cropWindow = options.cropWindow,
-      .quick = options.quick,
-      .samplesPerPixel = options.samplesPerPixel,
-      .seed = options.seed,
-      .layers = options.layers,
-      .mediumParams = parseParams(options.mediumParams, "--mediumparams", diagnostics)};
+  const ConstructOptions build = constructOptionsOf(options, diagnostics);
   if (diagnostics.hasErrors()) {
     show(diagnostics, options.quiet);
     throw ShownFailure(diagnostics.format());
@@ -59,7 +65,31 @@ BuiltWorld build(SceneDescription& description, const Run& run) {
   if (options.verbose) {
     for (const std::string& line : scene->report) std::cerr << "  " << line << '\n';
   }
-  return {std::move(*scene), std::move(identity)};
+  return {std::move(*scene), std::move(identity), nullptr};
+}
+
+/// The scene at another value of the variable of --derivative. Throws SceneError with all that is wrong.
+Construction buildAt(double value, const Options& options) {
+  const std::string& variable = options.derivative->variable;
+  Diagnostics diagnostics;
+  diagnostics.strict = options.strict;
+  ParseOptions parse{.variables = options.variables};
+  parse.variables.set(variable, exactText(value));
+  std::vector<SceneDescription> worlds = parseFiles(options.scenes, diagnostics, parse);
+  std::optional<Construction> scene;
+  if (!diagnostics.hasErrors() && worlds.size() == 1)
+    scene = construct(worlds.front(), constructOptionsOf(options, diagnostics), diagnostics);
+  if (scene) return std::move(*scene);
+  throw SceneError({}, "--derivative " + variable + ": there is no scene at " + variable + " = " +
+                           exactText(value) + "; take another --step:\n" + diagnostics.format());
+}
+
+/// From now on the image of the world is that of its derivative.
+void differentiate(BuiltWorld& world, const Run& run) {
+  const DerivativeOptions& derivative = *run.options.derivative;
+  world.derivative = std::make_unique<DerivativeScenes>(
+      world.scene, derivative, [&run](double value) { return buildAt(value, run.options); });
+  world.identity.derivative = describe(derivative, world.derivative->samplesPerPass());
 }
 
 /// Throws SceneError when the scene has no such samples, or parts of them would not be parts of one image.
@@ -198,6 +228,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   try {
     run.together.step([&] {
       world.emplace(build(description, run));
+      if (options.derivative) differentiate(*world, run);
       statistics.construct = constructing.elapsed();
       begin(*world, id, run);
     });
@@ -216,6 +247,10 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
       renderImage(scene, options, run.ending, run.watching, run.checkpoints, run.together);
   fillIn(statistics, rendered);
   const RenderResult& result = rendered.result;
+  if (world->derivative) {
+    statistics.derivative = {*options.derivative, world->derivative->samplesPerPass(), result.passes,
+                             world->derivative->built()};
+  }
   if (!run.together.isFirst()) return statistics;                        // the first does the rest
   if (result.samplesTaken == 0 && result.interrupted) leaveIfStopped();  // black would be a wrong image
   const Stopwatch writing;
@@ -225,6 +260,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   Image image = withHeader(scene.film->develop(), statistics, options, world->identity);
   // Who merges images wants to know what their channels are.
   if (!scene.film->layers().isEmpty()) image.metadata["layers"] = scene.film->layers().text();
+  if (options.derivative && !options.quiet) std::cerr << describeStandstill(image, *options.derivative);
   const std::string written =
       options.samples ? writeRendered(scene.outfile, asRange(image, *options.samples, scene), options, status)
                       : writeRendered(scene.outfile, image, options, status);

@@ -96,7 +96,39 @@ nlohmann::ordered_json toJson(const std::vector<RankShare>& ranks) {
   return all;
 }
 
+const char* nameOf(DifferenceSchedule::Difference difference) {
+  return difference == DifferenceSchedule::Difference::Forward ? "forward" : "central";
+}
+
+const char* nameOf(DifferenceSchedule::Debias debias) {
+  switch (debias) {
+    case DifferenceSchedule::Debias::Single:
+      return "single";
+    case DifferenceSchedule::Debias::Progressive:
+      return "progressive";
+    case DifferenceSchedule::Debias::None:
+      break;
+  }
+  return "none";
+}
+
+nlohmann::ordered_json toJson(const DerivativeRecord& record) {
+  const DifferenceSchedule::Params& p = record.options.difference;
+  nlohmann::ordered_json json = {{"variable", record.options.variable},
+                                 {"value", p.value},
+                                 {"step", p.step},
+                                 {"difference", nameOf(p.difference)},
+                                 {"debias", nameOf(p.debias)}};
+  if (p.debias == DifferenceSchedule::Debias::Progressive) json["stepDecay"] = p.decay;
+  json["samplesPerPass"] = record.samplesPerPass;
+  json["passes"] = record.passes;
+  json["scenesBuilt"] = record.scenesBuilt;
+  return json;
+}
+
 nlohmann::ordered_json toJson(const RenderStatistics& s) {
+  nlohmann::ordered_json derivative;
+  if (s.derivative) derivative = toJson(*s.derivative);
   return {{"scene", s.scene},
           {"outfile", s.outfile},
           {"seed", s.seed},
@@ -112,6 +144,7 @@ nlohmann::ordered_json toJson(const RenderStatistics& s) {
             {"render", toJson(s.render)},
             {"measure", toJson(s.measure)},
             {"write", toJson(s.write)}}},
+          {"derivative", derivative},
           {"parts", toJson(s.parts)},
           {"ranks", toJson(s.ranks)},
           {"counters", toJson(s.counters)},
@@ -164,6 +197,10 @@ std::string formatStatistics(const RenderStatistics& s) {
     for (std::string line; std::getline(parts, line);) os << "  part      " << line << '\n';
   }
   if (!s.ranks.empty()) os << describeRanks(s);
+  if (s.derivative) {
+    os << "  derivative " << s.derivative->passes << (s.derivative->passes == 1 ? " pass of " : " passes of ")
+       << s.derivative->samplesPerPass << " samples; " << s.derivative->scenesBuilt << " scenes built\n";
+  }
   if (s.samplesTaken > 0) {
     os << "  samples   " << formatCount(static_cast<double>(s.samplesTaken)) << ", "
        << 1e6 * s.render.cpu / static_cast<double>(s.samplesTaken) << " us of CPU each\n";

@@ -3,16 +3,26 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/statistics.h"
 #include "base/stopwatch.h"
 #include "main/checkpoint_file.h"
+#include "main/options.h"
 #include "main/render_image.h"
 #include "render/render_result.h"
 
 namespace pbrtmedia {
+
+/// How a derivative was made.
+struct DerivativeRecord {
+  DerivativeOptions options;
+  int samplesPerPass = 0;
+  std::uint64_t passes = 0;
+  std::size_t scenesBuilt = 0;  ///< besides that at the value of the variable
+};
 
 /// What one render cost and met with.
 struct RenderStatistics {
@@ -27,6 +37,7 @@ struct RenderStatistics {
   std::string stoppedBy;                               ///< RenderedImage::stoppedBy
   PhaseTime parse, construct, render, measure, write;  ///< `render`: of all parts
   std::vector<RankShare> ranks;                        ///< where several rendered it
+  std::optional<DerivativeRecord> derivative;          ///< where the image is one
   std::vector<RenderPart> parts;                       ///< one for each process that rendered some of it
   RenderCounters counters;
   std::vector<LearningRecord> learning;  ///< of media with progressive bounds

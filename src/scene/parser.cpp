@@ -53,6 +53,7 @@ class Parser {
     params_.looseNumbers().report();
     if (!stopped_) builder_.finish();
     if (diagnostics_.errorCount() == 0) reportUnused();
+    if (options_.variablesAfter) *options_.variablesAfter = tokens_.variables();
     std::vector<SceneDescription> worlds = builder_.take();
     for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i].textHash = hashCombine(tokens_.textHash(), i);
     return worlds;

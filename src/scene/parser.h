@@ -14,11 +14,12 @@
 namespace pbrtmedia {
 
 struct ParseOptions {
-  bool readFiles = true;               ///< false: Include and spectrum files are checked for syntax only
-  std::size_t maxIncludeDepth = 128;   ///< files open at once
-  std::size_t maxIncludes = 1u << 17;  ///< Include directives in all: stops files that multiply each other
-  std::size_t maxErrors = 200;         ///< parsing stops after so many errors
-  Variables variables{};               ///< those of the command line; each must be used
+  bool readFiles = true;                ///< false: Include and spectrum files are checked for syntax only
+  std::size_t maxIncludeDepth = 128;    ///< files open at once
+  std::size_t maxIncludes = 1u << 17;   ///< Include directives in all: stops files that multiply each other
+  std::size_t maxErrors = 200;          ///< parsing stops after so many errors
+  Variables variables{};                ///< those of the command line; each must be used
+  Variables* variablesAfter = nullptr;  ///< where all of them go in the end, with those that Define made
 };
 
 /// Reads PBRT-v3 scene files in order with one continuous state; "-" is standard input. One description per

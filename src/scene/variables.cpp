@@ -132,6 +132,19 @@ std::vector<std::string_view> Variables::names() const {
   return names;
 }
 
+bool Variables::isUsed(std::string_view name) const {
+  const auto found = values_.find(name);
+  return found != values_.end() && found->second.isUsed;
+}
+
+std::optional<double> Variables::number(std::string_view name) const {
+  const auto found = values_.find(name);
+  double value = 0;
+  if (found == values_.end() || parseDouble(found->second.tokens, value) != NumberStatus::Ok)
+    return std::nullopt;
+  return value;
+}
+
 std::vector<std::string_view> Variables::unused() const {
   std::vector<std::string_view> names;
   for (const auto& [name, value] : values_) {

@@ -40,6 +40,10 @@ class Variables {
   std::optional<std::string> expanded(std::string_view quoted);
 
   std::vector<std::string_view> names() const;
+  /// Whether something asked for it.
+  bool isUsed(std::string_view name) const;
+  /// The value where it is one number.
+  std::optional<double> number(std::string_view name) const;
   /// Names of the command line that nothing asked for. A frame may go unused.
   std::vector<std::string_view> unused() const;
 

@@ -173,7 +173,8 @@ TEST_F(PbrtMpi, TellsWhatIsWrongOnce) {
   for (const Case& c :
        {Case{"bad.pbrt", "bad.pbrt:2:"}, Case{"nowhere.pbrt", "cannot open \"nowhere.pbrt\""},
         Case{"--resume no.ckpt bad.pbrt", "no.ckpt"}, Case{"--nonsense bad.pbrt", "unknown option"},
-        Case{"--stats no/such/file bad.pbrt", "--stats"}, Case{"- < bad.pbrt", "standard input"}}) {
+        Case{"--stats no/such/file bad.pbrt", "--stats"}, Case{"- < bad.pbrt", "standard input"},
+        Case{"--derivative x --step 1 bad.pbrt", "several processes cannot share"}}) {
     const ProcessResult r = mpi(3, std::string("--strict --quick ") + c.arguments);
     EXPECT_EQ(r.status, 1) << c.arguments;
     EXPECT_EQ(countOf(r.output, "error: "), 1) << r.output;

@@ -50,6 +50,16 @@ TEST(Convert, DropsSamplesAndSeedOnceValuesChange) {
   EXPECT_EQ(cropped.metadata.at("samples"), "4");
 }
 
+TEST(Convert, ShowsSignedValuesByTheScale) {
+  const Image half = converted(greys(2, 1, {-1, 4}), {.scale = 0.25f, .isSigned = true});
+  EXPECT_EQ(half.rgb(1, 0), Rgb(1, 0, 0));
+  EXPECT_EQ(half.rgb(0, 0).b, 1);
+  EXPECT_GT(half.rgb(0, 0).r, 0.4f) << "a quarter of the way to blue";
+  const Image whole = converted(greys(2, 1, {-4, 2}), {.isSigned = true, .zero = ZeroColor::Black});
+  EXPECT_EQ(whole.rgb(0, 0), Rgb(0, 0, 1)) << "the largest, without a scale";
+  EXPECT_EQ(whole.rgb(1, 0).g, 0);
+}
+
 TEST(Convert, RefusesSizesThatAreNone) {
   for (const char* size : {"2", "x", "2x", "x2", "0x2", "2x-1", "2x2x2", "2 x 2", "999999x2"}) {
     EXPECT_THROW(converted(greys(1, 1, {3}), {.resize = size}), std::runtime_error) << size;

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <iostream>
 #include <stdexcept>
 #include <utility>
 
@@ -24,6 +25,24 @@ Point2i parseSize(const std::string& text) {
     }
   }
   throw std::runtime_error("--resize needs WIDTHxHEIGHT with sides from 1 to 131072, found \"" + text + "\"");
+}
+
+/// The luminance that is shown in full colour: 1 of what was scaled on demand.
+float fullColor(const Image& image, const ConvertOptions& options) {
+  return options.scale || options.exposure ? 1.0f : usualSize(image);
+}
+
+/// What the colours mean, in the units of the file.
+void tellScale(const Image& image, const ConvertOptions& options) {
+  ConvertOptions before = options;  // the steps up to there
+  before.isSigned = false;
+  before.resize.clear();
+  before.repeatPixels = 1;
+  before.flipY = false;
+  const float factor = options.scale.value_or(1.0f) * std::exp2(options.exposure.value_or(0.0f)),
+              full = fullColor(converted(image, before), options) / factor;
+  std::cout << "red is " << full << ", blue -" << full << "; --signed --scale " << 1 / full
+            << " shows other images alike\n";
 }
 
 }  // namespace
@@ -62,6 +81,10 @@ Image converted(Image image, const ConvertOptions& options) {
     preserveColors(image);
     changed = true;
   }
+  if (options.isSigned) {
+    image = signedColors(image, fullColor(image, options), options.zero);
+    changed = true;
+  }
   if (!options.resize.empty()) {
     const Point2i size = parseSize(options.resize);
     image = resize(image, size.x, size.y, options.resizeFilter);
@@ -87,6 +110,7 @@ int runConvert(const ConvertOptions& options) {
   try {
     Image image = loadLinear(options.input).image;
     if (!options.layer.empty()) image = layerAlone(options.input, image, options.layer);
+    if (options.isSigned) tellScale(image, options);
     WriteOptions write = options.write;
     const auto layer = image.metadata.find("layer");
     if (layer != image.metadata.end() && isDataLayer(layer->second)) write.pixelType = PixelType::Float;

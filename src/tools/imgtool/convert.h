@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "image/resample.h"
+#include "image/signed_colors.h"
 #include "image/tonemap.h"
 #include "tools/imgtool/common.h"
 
@@ -25,6 +26,8 @@ struct ConvertOptions {
   bool toneMap = false;
   float maxLuminance = 1;
   bool preserveColors = false;
+  bool isSigned = false;  ///< values are shown by signedColors
+  ZeroColor zero = ZeroColor::White;
   std::string resize = {};  ///< empty, or "WxH"
   ResizeFilter resizeFilter = ResizeFilter::Box;
   int repeatPixels = 1;

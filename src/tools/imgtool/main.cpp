@@ -49,7 +49,7 @@ void addConvert(CLI::App& app, ConvertOptions& o, Run& run) {
   c->footer(
       "Steps are applied in this order: layer, crop, scale and exposure, offset, despike, bloom, tonemap, "
       "preservecolors,\n"
-      "resize, repeatpix, flipy. PNG and TGA are linearised on reading and sRGB-encoded on writing.");
+      "signed, resize, repeatpix, flipy. PNG and TGA are linearised on reading and sRGB-encoded on writing.");
   c->add_option("input", o.input, "image to read")->required();
   c->add_option("output", o.output, "image to write: .exr, .pfm, .png or .tga")->required();
   c->add_option("--layer", o.layer, kLayerHelp)->type_name("NAME");
@@ -81,7 +81,21 @@ void addConvert(CLI::App& app, ConvertOptions& o, Run& run) {
   c->add_option("--maxluminance", o.maxLuminance, "luminance that tone mapping turns into 1 (1)")
       ->check(number(NumberRange{.least = 0, .most = kLargest, .excludesLeast = true}))
       ->needs(toneMap);
-  c->add_flag("--preservecolors", o.preserveColors, "divide by the largest component where it is above 1");
+  CLI::Option* preserve = c->add_flag("--preservecolors", o.preserveColors,
+                                      "divide by the largest component where it is above 1");
+  CLI::Option* isSigned =
+      c->add_flag(
+           "--signed", o.isSigned,
+           "show signed values, as of pbrt --derivative: blue below 0, red above; full colour at 1 of what "
+           "--scale makes, else where few pixels are beyond; tells the scale")
+          ->excludes(level)
+          ->excludes(toneMap)
+          ->excludes(preserve);
+  const std::map<std::string, ZeroColor> zeros{{"white", ZeroColor::White}, {"black", ZeroColor::Black}};
+  c->add_option("--zero", o.zero, "what 0 is with --signed: white (default) or black")
+      ->transform(oneOf(zeros))
+      ->needs(isSigned)
+      ->type_name("COLOUR");
   c->add_option("--resize", o.resize, "WIDTHxHEIGHT");
   const std::map<std::string, ResizeFilter> filters{{"box", ResizeFilter::Box},
                                                     {"lanczos", ResizeFilter::Lanczos}};

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <string_view>
 
+#include "base/geometric_levels.h"
 #include "transmittance/law.h"
 #include "transmittance/parts/comb.h"
 #include "transmittance/parts/lookup_limit.h"
@@ -16,8 +16,7 @@ namespace pbrtmedia {
 
 /// The levels of a march that is refined by halving its step: level i has teeth * 2^i look-ups, and its
 /// correction Delta_i = g(march of level i + 1) - g(march of level i) costs teeth * 2^(i+1). The level to
-/// correct is geometric, Pr{i} = rate (1 - rate)^i. Misso et al. 2022, Eqs. (12), (22); Blanchet & Glynn
-/// 2015.
+/// correct is geometric (GeometricLevels). Misso et al. 2022, Eqs. (12), (22); Blanchet & Glynn 2015.
 ///
 /// Levels end where a correction would need more than 2^30 look-ups. The bias of leaving out the rest is that
 /// of a march of 2^30 teeth, below the rounding of a density, and Pr of ever getting there is (1 -
@@ -44,7 +43,7 @@ class TelescopingLevels {
   /// `teeth` >= 1 of the lowest level, `mostLookups` in all (0: kMostLookups) of which `apart` are spent
   /// elsewhere.
   TelescopingLevels(std::uint64_t teeth, double rate, std::uint64_t mostLookups, std::uint64_t apart)
-      : rate_(rate) {
+      : geometric_(rate) {
     const std::uint64_t most = mostLookups > 0 ? std::min(mostLookups, kMostLookups) : kMostLookups;
     const std::uint64_t corrections = (most > apart ? most - apart : 0) / teeth;
     levels_ = static_cast<unsigned>(std::bit_width(corrections | 1)) - 1;  // 2^levels <= corrections
@@ -53,12 +52,10 @@ class TelescopingLevels {
   /// Levels that can be corrected: 0 .. count() - 1.
   unsigned count() const { return levels_; }
   /// From u in (0, 1]; may be count() or more, where there is nothing to correct.
-  unsigned draw(double u) const {
-    return static_cast<unsigned>(std::log(u) / std::log1p(-rate_));  // at most 37 / 0.69
-  }
+  unsigned draw(double u) const { return geometric_.draw(u); }  // at most 37 / 0.69
   /// Pr{level >= i}.
-  double reaching(unsigned i) const { return std::pow(1 - rate_, i); }
-  double probability(unsigned i) const { return rate_ * reaching(i); }
+  double reaching(unsigned i) const { return geometric_.reaching(i); }
+  double probability(unsigned i) const { return geometric_.probability(i); }
 
   /// Teeth of the coarse march: n 2^levels, or what the limit leaves.
   static std::uint64_t baseTeeth(std::uint64_t n, std::uint64_t levels, std::uint64_t mostLookups) {
@@ -88,7 +85,7 @@ class TelescopingLevels {
   }
 
  private:
-  double rate_;
+  GeometricLevels geometric_;
   unsigned levels_;
 };
 
