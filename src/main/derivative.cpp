@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "fields/learned_bounds.h"
+#include "image/codecs.h"
 #include "media/medium.h"
 #include "render/difference_integrator.h"
 #include "scene/parser.h"
@@ -43,7 +43,8 @@ void checkScene(const Construction& scene, const std::string& variable) {
   }
   if (!scene.film->layers().isEmpty())
     refuse(variable, "layers (" + scene.film->layers().text() + ") are of one image; leave them out");
-  if (const std::string type = scene.outfile.extension(); type != ".exr" && type != ".pfm") {
+  const std::optional<ImageFormat> format = formatByExtension(scene.outfile);
+  if (format && isSrgbEncoded(*format)) {
     refuse(variable,
            "the image has negative values, which \"" + scene.outfile.string() +
                "\" would lose; write an .exr or .pfm file, and show it by imgtool convert --signed");

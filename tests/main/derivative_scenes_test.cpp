@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <set>
 #include <sstream>
 #include <string>
 
@@ -258,18 +259,39 @@ TEST(Derivative, DoesNotDependOnThreadsAndTiles) {
   EXPECT_GE(one.result.counters.cameraSamples, 2 * one.result.samplesTaken) << "of all scenes";
 }
 
+/// A scene stays while the pass or the next one needs it.
 TEST(Derivative, BuildsScenesWhenTheyAreNeeded) {
-  const auto built = [](Debias debias) {
-    return derivativeOf(
-               movedLight,
-               {.difference = {.value = 1.5, .step = .25, .debias = debias, .seed = 1}, .samplesPerPass = 1},
-               {.seed = 1, .samplesPerPixel = 64})
+  const DifferenceSchedule::Params none{.value = 1.5, .step = .25, .seed = 1};
+  const auto built = [&](Debias debias) {
+    DifferenceSchedule::Params params = none;
+    params.debias = debias;
+    return derivativeOf(movedLight, {.difference = params, .samplesPerPass = 1},
+                        {.seed = 1, .samplesPerPixel = 64})
         .built;
   };
   EXPECT_EQ(built(Debias::None), 1u);
   EXPECT_EQ(built(Debias::Progressive), 64u);
-  EXPECT_GT(built(Debias::Single), 5u) << "that of the step, and of several levels";
-  EXPECT_LT(built(Debias::Single), 90u) << "levels that follow each other share theirs";
+  DifferenceSchedule::Params params = none;
+  params.debias = Debias::Single;
+  const DifferenceSchedule schedule(params);
+  const auto valuesOf = [&](std::int64_t pass) {
+    std::set<double> values;
+    for (const DifferenceTerm& term : schedule.terms(pass)) values.insert(term.value);
+    return values;
+  };
+  std::set<double> there = {none.value};
+  std::size_t expected = 0, different = 0;
+  std::set<double> seen = there;
+  for (std::int64_t pass = 0; pass < 64; ++pass) {
+    const std::set<double> now = valuesOf(pass), next = valuesOf(pass + 1);
+    std::erase_if(there, [&](double v) { return v != none.value && !now.contains(v) && !next.contains(v); });
+    for (const double value : now) {
+      expected += there.insert(value).second ? 1 : 0;
+      different += seen.insert(value).second ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(built(Debias::Single), expected);
+  EXPECT_GT(expected, different) << "some are built again";
 }
 
 }  // namespace
