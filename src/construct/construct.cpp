@@ -154,7 +154,11 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
                         [&] { return std::make_unique<Film>(film.settings, *film.filter); });
     checkPixelBounds(scene, *integrator, *made.film);
     made.scene = world.build(integrator->rendersMedia);
-    if (integrator->tracesFromLights) made.scene->prepareEmission();
+    if (integrator->tracesFromLights) {
+      made.scene->prepareEmission();
+      world.warnOfTurningStrands(scene.integrator.location, "Integrator \"" + scene.integrator.type + '"',
+                                 integrator->weighsBothEnds);
+    }
     CameraMedium cameraMedium;
     if (integrator->rendersMedia) {
       cameraMedium = findCameraMedium(scene, made, world, diagnostics);

@@ -192,7 +192,8 @@ IntegratorPlan readBdpt(ParamReader& in, const ConstructOptions&) {
                                                     std::move(cameraMedium));
           },
           .rendersMedia = true,
-          .tracesFromLights = true};
+          .tracesFromLights = true,
+          .weighsBothEnds = true};
 }
 
 constexpr auto kIntegrators = std::to_array<Plugin<ReadIntegrator>>({

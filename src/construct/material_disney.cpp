@@ -15,6 +15,8 @@ Materials::Make readDisney(Texturable& in) {
   const bool isThin = in.findBool("thin", false);
   const auto flatness = in.findFloat("flatness", 0), diffTrans = in.findFloat("difftrans", 1);
   const auto bump = in.optionalFloat("bumpmap");
+  const bool goesBelow = !isThin && !(distance.isConstant() && distance.constant.nonNegative().isBlack());
+  if (goesBelow && eta.isConstant()) warnOfIndexBelowSurface(in, eta.constant);
   return [=](Materials& m) {
     Textures& t = m.textures();
     return std::make_unique<DisneyMaterial>(DisneyParams{.color = t.rgbTexture(color),

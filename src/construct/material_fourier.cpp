@@ -9,12 +9,13 @@ namespace pbrtmedia {
 Materials::Make readFourier(Texturable& in) {
   constexpr std::string_view kBlackInstead = "the surface is black, as in PBRT-v3";
   const std::optional<std::filesystem::path> file = in.findInputFile("bsdffile", kBlackInstead);
-  if (!file && !in.own().has(ParamKind::String, "bsdffile")) {
-    tolerate(in.own(), "parameter \"bsdffile\" is missing; " + std::string(kBlackInstead));
+  ParamReader& told = in.readerOf(ParamKind::String, "bsdffile");
+  if (!file && !told.has(ParamKind::String, "bsdffile")) {
+    tolerate(told, "parameter \"bsdffile\" is missing; " + std::string(kBlackInstead));
   }
   const auto bump = in.optionalFloat("bumpmap");
-  const SourceLocation at = in.own().locationOf(ParamKind::String, "bsdffile");
-  const std::string context = in.own().context();
+  const SourceLocation at = told.locationOf(ParamKind::String, "bsdffile");
+  const std::string context = told.context();
   return [=](Materials& m) -> std::unique_ptr<Material> {
     Textures& t = m.textures();
     if (file) {

@@ -7,6 +7,10 @@
 
 namespace pbrtmedia {
 
+/// Says that indices of refraction beyond those for which light that comes from below the surface is known
+/// count as the nearest of them, in this.
+void warnOfIndexBelowSurface(Texturable& in, float eta);
+
 Materials::Make readDisney(Texturable& in);
 Materials::Make readFourier(Texturable& in);
 Materials::Make readHair(Texturable& in);

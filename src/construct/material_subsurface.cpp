@@ -4,6 +4,7 @@
 #include "construct/material_kinds.h"
 #include "construct/tolerance.h"
 #include "materials/subsurface.h"
+#include "materials/subsurface_exit.h"
 #include "media/presets.h"
 
 namespace pbrtmedia {
@@ -39,7 +40,25 @@ MakeBoundary readBoundary(Texturable& in) {
 constexpr float kEta = 1.33f;
 constexpr Range kMeanCosine = Range::open(-1, 1);
 
+float readIndex(Texturable& in) {
+  const float eta = findNumber(in, "eta", kEta, Range::positive());
+  warnOfIndexBelowSurface(in, eta);
+  return eta;
+}
+
 }  // namespace
+
+void warnOfIndexBelowSurface(Texturable& in, float eta) {
+  constexpr float kMost = kLargestMomentIndex;
+  if (eta <= kMost && eta >= 1 / kMost) return;
+  ParamReader& told = in.readerOf(ParamKind::Float, "eta");
+  told.diagnostics().warning(
+      told.locationOf(ParamKind::Float, "eta"),
+      told.context() + ": parameter \"eta\": found " + shownNumber(eta) + ", expected " +
+          shownNumber(1 / kMost) + " to " + shownNumber(kMost) +
+          " where light goes below the surface: how much of it the surface sends "
+          "back down is taken as at the nearer end; PBRT-v3 makes light of nothing there");
+}
 
 Materials::Make readSubsurface(Texturable& in) {
   Rgb defaultA(.0011f, .0024f, .014f), defaultS(2.55f, 3.21f, 3.77f);
@@ -59,7 +78,7 @@ Materials::Make readSubsurface(Texturable& in) {
   }
   const auto sigmaA = in.findRgb("sigma_a", defaultA), sigmaS = in.findRgb("sigma_s", defaultS);
   const float scale = findNumber(in, "scale", 1, Range::nonNegative());
-  const float eta = findNumber(in, "eta", kEta, Range::positive());
+  const float eta = readIndex(in);
   const MakeBoundary boundary = readBoundary(in);
   return [=](Materials& m) {
     Textures& t = m.textures();
@@ -72,7 +91,7 @@ Materials::Make readKdSubsurface(Texturable& in) {
   const auto kd = in.findRgb("Kd", Rgb(0.5f)), path = in.findRgb("mfp", Rgb(1));
   const float g = findNumber(in, "g", 0, kMeanCosine);
   const float scale = findNumber(in, "scale", 1, Range::nonNegative());
-  const float eta = findNumber(in, "eta", kEta, Range::positive());
+  const float eta = readIndex(in);
   const MakeBoundary boundary = readBoundary(in);
   return [=](Materials& m) {
     Textures& t = m.textures();

@@ -44,6 +44,11 @@ class Texturable {
   /// ParamReader::findInputFile.
   std::optional<std::filesystem::path> findInputFile(std::string_view name, std::string_view consequence);
 
+  /// Whose list tells this parameter: the shape's where it stands there.
+  ParamReader& readerOf(ParamKind kind, std::string_view name) {
+    return shape_ != nullptr && shape_->has(kind, name) ? *shape_ : own_;
+  }
+
   /// A parameter of the shape was used: the material is of this shape alone.
   bool shapeOverrides() const { return shapeOverrides_; }
   ParamReader& own() { return own_; }

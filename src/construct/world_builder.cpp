@@ -115,6 +115,27 @@ WorldBuilder::ShapeRead WorldBuilder::readShape(ShapeDescription& shape, Diagnos
   return read;
 }
 
+void WorldBuilder::warnOfTurningStrands(const SourceLocation& at, const std::string& context,
+                                        bool toldApart) const {
+  for (std::size_t i = 0; i < shapes_.size(); ++i) {
+    const std::optional<ShapePlan>& plan = shapes_[i].plan;
+    const ShapeDescription& shape = scene_.shapes[i];
+    if (!plan || !plan->strands || !turnsToRays(plan->strands->type) || !isUsed(shape)) continue;
+    if (shapes_[i].material.isNone) continue;
+    const bool isHair =
+        shape.material != kNone && scene_.materials[static_cast<std::size_t>(shape.material)].type == "hair";
+    if (isHair && !toldApart) continue;
+    diagnostics_.warning(
+        at,
+        context + ": curves of type flat and cylinder turn to the ray that meets them, as at " +
+            shape.location.toString() +
+            ", so that paths from lights find other surfaces than paths from the camera: light that these "
+            "curves scatter may be too bright or too dark, as in PBRT-v3; \"volpath\" renders them, and "
+            "curves of type ribbon are the same from both ends");
+    return;
+  }
+}
+
 void WorldBuilder::markUsedMedia() {
   mediumUsed_.assign(scene_.media.size(), false);
   const auto use = [&](const MediumUse& m) {

@@ -41,6 +41,10 @@ class WorldBuilder {
   /// lie outside of all their boundaries.
   void warnOfUnseenMedia(const CameraMedium& camera, const std::vector<const Medium*>& unreached,
                          Diagnostics& diagnostics) const;
+  /// Warns at `at` of strands that turn to each ray (SurfaceInteraction::turnsToRays), where the integrator
+  /// of `context` traces paths from lights. `toldApart`: it weighs by densities what paths from both ends
+  /// find.
+  void warnOfTurningStrands(const SourceLocation& at, const std::string& context, bool toldApart) const;
   std::vector<std::string> report() const { return report_; }
 
  private:

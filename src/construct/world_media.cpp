@@ -56,7 +56,6 @@ void WorldBuilder::warnOfMediaThatStay() {
   }
 }
 
-/// Whether nobody looks through the shape, whatever its textures are.
 void WorldBuilder::dropMediaOfCurves() {
   const ShapeDescription* first = nullptr;
   std::size_t count = 0;
@@ -74,6 +73,7 @@ void WorldBuilder::dropMediaOfCurves() {
           "; PBRT-v3 changes media at each hit. The same name twice says what is around them");
 }
 
+/// Whether nobody looks through the shape, whatever its textures are.
 bool WorldBuilder::isOpaque(const ShapeDescription& shape) const {
   if (shape.material == kNone) return true;  // the default matte
   constexpr std::array<std::string_view, 5> kOpaque = {"matte", "mirror", "metal", "plastic", "substrate"};

@@ -73,6 +73,25 @@ DisneyMaterial::Point DisneyMaterial::pointAt(const SurfaceInteraction& si) cons
   return at;
 }
 
+std::size_t DisneyMaterial::maxLobes() const {
+  const DisneyParams& p = params_;
+  const bool isColoured = !isAlwaysBlack(*p.color), isThrough = !isAlways(*p.specTrans, 0);
+  std::size_t count = 1;  // reflection
+  if (!isAlways(*p.metallic, 1) && !isAlways(*p.specTrans, 1)) {
+    if (hasBssrdf()) {
+      ++count;
+    } else if (isColoured) {
+      count += p.isThin && !isAlways(*p.flatness, 0) && !isAlways(*p.flatness, 1) ? 2 : 1;
+    }
+    if (isColoured) ++count;  // retro-reflection
+    if (!isAlways(*p.sheen, 0)) ++count;
+  }
+  if (!isAlways(*p.clearcoat, 0)) ++count;
+  if (isColoured && isThrough) ++count;
+  if (isColoured && p.isThin && !isAlways(*p.diffTrans, 0)) ++count;
+  return count;
+}
+
 bool DisneyMaterial::hasBssrdf() const { return !params_.isThin && !isAlwaysBlack(*params_.scatterDistance); }
 
 std::optional<Bssrdf> DisneyMaterial::bssrdf(const SurfaceInteraction& si) const {
@@ -123,7 +142,8 @@ void DisneyMaterial::addGlossy(const Point& at, const SurfaceInteraction& si, Tr
   const float coat = params_.clearcoat->evaluate(si);
   if (coat > 0) {
     const float gloss = params_.clearcoatGloss->evaluate(si);
-    constexpr float kLeastAlpha = 1e-4f, kMostAlpha = 0.999f;  // the law has no limit in its form at 0 and 1
+    // The law has no limit in its form at 1, and below this no digits in single precision.
+    constexpr float kLeastAlpha = 1e-3f, kMostAlpha = 0.999f;
     addUnlessBlack(bsdf, Rgb(coat),
                    DisneyClearcoat{std::clamp(lerp(gloss, 0.1f, 0.001f), kLeastAlpha, kMostAlpha)});
   }

@@ -33,7 +33,7 @@ class DisneyMaterial final : public Material {
   /// Throws std::invalid_argument for a missing texture.
   explicit DisneyMaterial(const DisneyParams& params);
   Bsdf bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpecular) const override;
-  std::size_t maxLobes() const override { return params_.isThin ? 8 : 6; }
+  std::size_t maxLobes() const override;
   bool hasBssrdf() const override;
   std::optional<Bssrdf> bssrdf(const SurfaceInteraction& si) const override;
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/warp.h"
+#include "materials/cosine_sampling.h"
 
 namespace pbrtmedia {
 namespace {
@@ -13,15 +13,6 @@ std::optional<float> cosineToHalf(Vector3f wo, Vector3f wi) {
   const float sum = length(wo + wi);
   if (!(sum > 0)) return std::nullopt;
   return 0.5f * sum;  // the same for unit vectors, without a loss of digits
-}
-
-float cosinePdf(Vector3f wo, Vector3f wi) { return isSameHemisphere(wo, wi) ? std::abs(wi.z) * kInvPi : 0; }
-
-template <class Law>
-LobeSample sampleByCosine(const Law& law, Vector3f wo, Point2f u) {
-  Vector3f wi = sampleCosineHemisphere(u);
-  if (wo.z < 0) wi.z = -wi.z;
-  return {law.f(wo, wi), wi, cosinePdf(wo, wi), Law::kFlags};
 }
 
 float fresnelAt(Vector3f w) { return schlickWeight(std::abs(w.z)); }

@@ -27,14 +27,17 @@ std::size_t headerNumber(ByteReader& in, std::string_view name, std::uint32_t le
                               (most != least ? " to " + std::to_string(most) : std::string()));
 }
 
-/// `count` finite numbers.
+/// Larger numbers make values that are not finite.
+constexpr float kLargestNumber = 1e20f;
+
+/// `count` numbers.
 std::vector<float> numbers(ByteReader& in, std::size_t count, std::string_view name) {
   ByteReader bytes(in.take(std::uint64_t{count} * sizeof(float)));  // before memory is taken for them
   std::vector<float> list(count);
   for (float& number : list) {
     number = bytes.number<float>();
-    if (!std::isfinite(number))
-      throw std::invalid_argument("a " + std::string(name) + " that is no finite number");
+    if (!(std::abs(number) <= kLargestNumber))
+      throw std::invalid_argument("a " + std::string(name) + " that is no finite number up to 1e20");
   }
   return list;
 }

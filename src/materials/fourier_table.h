@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +23,6 @@ class FourierTable {
   static FourierTable parse(std::string_view bytes, const std::string& shownName);
 
   float eta() const { return eta_; }  ///< index behind the normal over that before it
-  std::span<const float> cosines() const { return mu_; }
 
   /// The series between the entries at two cosines.
   class Blend;

@@ -30,13 +30,14 @@ Rgb HairMaterial::absorptionAt(const SurfaceInteraction& si, float betaN) const 
 Bsdf HairMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool) const {
   const float eta = params_.eta->evaluate(si), betaN = params_.betaN->evaluate(si);
   Bsdf bsdf(si, mode, eta);
-  bsdf.add(Lobe(Rgb(1), RareLobe(HairFibre({.h = 2 * si.uv.y - 1,
-                                            .eta = eta,
-                                            .sigmaA = absorptionAt(si, betaN),
-                                            .betaM = params_.betaM->evaluate(si),
-                                            .betaN = betaN,
-                                            .alpha = params_.alpha->evaluate(si)}),
-                                 mode)));
+  const HairFibre fibre({.h = 2 * si.uv.y - 1,
+                         .eta = eta,
+                         .sigmaA = absorptionAt(si, betaN),
+                         .betaM = params_.betaM->evaluate(si),
+                         .betaN = betaN,
+                         .alpha = params_.alpha->evaluate(si)});
+  const bool isAdjointOfStrand = mode == TransportMode::Importance && si.turnsToRays;
+  bsdf.add(Lobe(Rgb(1), isAdjointOfStrand ? RareLobe(StrandAdjoint{fibre}) : RareLobe(fibre, mode)));
   return bsdf;
 }
 

@@ -2,7 +2,6 @@
 #include "materials/hair_fibre.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -109,7 +108,8 @@ HairFibre::View HairFibre::viewFrom(Vector3f wo) const {
   // The path through the cross-section, with the index that inclined light sees (Bravais).
   const float cosT = safeSqrt(1 - sqr(sinO / eta_));
   const float inclined = safeSqrt(sqr(eta_) - sqr(sinO)) / cosO;
-  const float sinGammaT = std::clamp(h_ / inclined, -1.0f, 1.0f), cosGammaT = safeSqrt(1 - sqr(sinGammaT));
+  const float across = inclined > 0 ? h_ / inclined : std::copysign(1.0f, h_);  // grazing where it bends away
+  const float sinGammaT = std::clamp(across, -1.0f, 1.0f), cosGammaT = safeSqrt(1 - sqr(sinGammaT));
   const float gammaO = std::asin(h_), gammaT = std::asin(sinGammaT);
   for (std::size_t p = 0; p < v.turn.size(); ++p) {
     const auto n = static_cast<float>(p);
@@ -128,7 +128,7 @@ HairFibre::View HairFibre::viewFrom(Vector3f wo) const {
   }
   float sum = 0;
   for (std::size_t p = 0; p < kLobes; ++p) sum += v.choice[p] = v.attenuation[p].average();
-  for (float& choice : v.choice) choice /= sum;
+  for (float& choice : v.choice) choice = sum > 0 ? choice / sum : 1.0f / kLobes;
   return v;
 }
 
@@ -177,6 +177,18 @@ LobeSample HairFibre::sample(Vector3f wo, Point2f u) const {
   const float phi = v.phi + turn;
   const Vector3f wi{sinI, cosI * std::cos(phi), cosI * std::sin(phi)};
   return {f(wo, wi), wi, pdf(wo, wi), kFlags};
+}
+
+Rgb StrandAdjoint::f(Vector3f wo, Vector3f wi) const {
+  const float across = std::hypot(wo.y, wo.z) * std::abs(wi.z);
+  if (!(across > 0)) return {};
+  return law.f(wi, wo) * (std::abs(wo.z) * std::hypot(wi.y, wi.z) / across);
+}
+
+LobeSample StrandAdjoint::sample(Vector3f wo, Point2f u) const {
+  LobeSample s = law.sample(wo, u);
+  if (s.pdf > 0) s.f = f(wo, s.wi);
+  return s;
 }
 
 Rgb hairAbsorption(float eumelanin, float pheomelanin) {

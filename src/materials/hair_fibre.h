@@ -47,6 +47,18 @@ class HairFibre {
   float sinTilt_;   ///< sin(alpha)
 };
 
+/// The adjoint of a fibre on strands that turn to each ray (SurfaceInteraction::turnsToRays). Those are as
+/// wide from all sides: how much of them a ray meets, the cosine to the normal on a surface, is here the
+/// cosine of its inclination to the fibre.
+struct StrandAdjoint {
+  static constexpr BsdfFlags kFlags = HairFibre::kFlags;
+  HairFibre law;
+
+  Rgb f(Vector3f wo, Vector3f wi) const;
+  float pdf(Vector3f wo, Vector3f wi) const { return law.pdf(wo, wi); }
+  LobeSample sample(Vector3f wo, Point2f u) const;
+};
+
 /// Absorption from concentrations of the two melanins (>= 0).
 Rgb hairAbsorption(float eumelanin, float pheomelanin);
 /// Absorption that gives dense hair a colour (channels in (0, 1]) at an azimuthal roughness.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include "base/warp.h"
-#include "materials/local_frame.h"
+#include "materials/cosine_sampling.h"
 
 namespace pbrtmedia {
 
@@ -11,12 +10,8 @@ struct LambertReflection {
   static constexpr BsdfFlags kFlags = BsdfFlags::Reflection | BsdfFlags::Diffuse;
 
   Rgb f(Vector3f, Vector3f) const { return Rgb(kInvPi); }
-  float pdf(Vector3f wo, Vector3f wi) const { return isSameHemisphere(wo, wi) ? std::abs(wi.z) * kInvPi : 0; }
-  LobeSample sample(Vector3f wo, Point2f u) const {
-    Vector3f wi = sampleCosineHemisphere(u);
-    if (wo.z < 0) wi.z = -wi.z;
-    return {f(wo, wi), wi, pdf(wo, wi), kFlags};
-  }
+  float pdf(Vector3f wo, Vector3f wi) const { return cosinePdf(wo, wi); }
+  LobeSample sample(Vector3f wo, Point2f u) const { return sampleByCosine(*this, wo, u); }
 };
 
 /// Transmits the same radiance everywhere on the other side: f = 1/π.

@@ -17,6 +17,11 @@ bool isAlwaysBlack(const RgbTexture& texture) {
   return constant != nullptr && reflectanceAt(*constant, SurfaceInteraction{}).isBlack();
 }
 
+bool isAlways(const FloatTexture& texture, float value) {
+  const auto* constant = dynamic_cast<const ConstantTexture<float>*>(&texture);
+  return constant != nullptr && constant->evaluate(SurfaceInteraction{}) == value;
+}
+
 void addDielectric(Bsdf& bsdf, const Dielectric& of, TransportMode mode, bool mergeSpecular,
                    BsdfFlags marks) {
   const auto& [kr, kt, eta, u, v, remap] = of;

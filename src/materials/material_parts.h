@@ -16,6 +16,8 @@ void requireTexture(const void* texture, std::string_view material, std::string_
 
 /// True for a constant that is black after clamping: its lobe is never made.
 bool isAlwaysBlack(const RgbTexture& texture);
+/// Whether it is a constant of this value.
+bool isAlways(const FloatTexture& texture, float value);
 
 /// The value clamped at 0 but not at 1.
 inline Rgb reflectanceAt(const RgbTexture& texture, const SurfaceInteraction& si) {

@@ -25,7 +25,7 @@ Bsdf MixMaterial::bsdf(SurfaceInteraction& si, TransportMode mode, bool mergeSpe
   if (weight2.isBlack()) return bsdf;
   Bsdf second = material2_->bsdf(other, mode, mergeSpecular);
   second.scale(weight2);
-  second.forgetSubsurface();
+  if (!material1_->hasBssrdf()) second.forgetSubsurface();
   for (std::size_t i = 0; i < second.lobeCount(); ++i) bsdf.add(second.lobe(i));
   return bsdf;
 }

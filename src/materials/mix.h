@@ -8,7 +8,7 @@ namespace pbrtmedia {
 
 /// amount · material1 + (1 - amount) · material2 per channel: amount 1 shows the *first* material (the mix
 /// texture is the other way round). Only material1's bump map, index and BSSRDF survive; material2's lobes
-/// are evaluated in material1's frame.
+/// are evaluated in material1's frame, and what they let below the surface goes on by material1's BSSRDF.
 class MixMaterial final : public Material {
  public:
   /// Borrows all three. Throws std::invalid_argument when a point could have more than Bsdf::kMaxLobes lobes.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include "base/warp.h"
-#include "materials/local_frame.h"
+#include "materials/cosine_sampling.h"
 
 namespace pbrtmedia {
 
@@ -16,12 +15,8 @@ class OrenNayar {
   explicit OrenNayar(float sigmaDegrees);
 
   Rgb f(Vector3f wo, Vector3f wi) const;
-  float pdf(Vector3f wo, Vector3f wi) const { return isSameHemisphere(wo, wi) ? std::abs(wi.z) * kInvPi : 0; }
-  LobeSample sample(Vector3f wo, Point2f u) const {
-    Vector3f wi = sampleCosineHemisphere(u);
-    if (wo.z < 0) wi.z = -wi.z;
-    return {f(wo, wi), wi, pdf(wo, wi), kFlags};
-  }
+  float pdf(Vector3f wo, Vector3f wi) const { return cosinePdf(wo, wi); }
+  LobeSample sample(Vector3f wo, Point2f u) const { return sampleByCosine(*this, wo, u); }
 
  private:
   float a_, b_;

@@ -32,7 +32,7 @@ struct Adjoint {
 class RareLobe {
  public:
   using Model = std::variant<DisneyDiffuse, DisneyFlatDiffuse, DisneyRetro, DisneySheen, DisneyReflection,
-                             DisneyClearcoat, SubsurfaceExit, HairFibre, Adjoint<HairFibre>,
+                             DisneyClearcoat, SubsurfaceExit, HairFibre, Adjoint<HairFibre>, StrandAdjoint,
                              FourierScattering, Adjoint<FourierScattering>>;
 
   explicit RareLobe(const Model& model) : model_(model) {}

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "materials/subsurface_exit.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
-#include "base/warp.h"
+#include "materials/cosine_sampling.h"
 #include "materials/fresnel.h"
 
 namespace pbrtmedia {
 
+namespace {
+double withinFit(double eta) { return std::min(eta, double{kLargestMomentIndex}); }
+}  // namespace
+
 // Coefficients: scene-language reference 15.2.
 
 double fresnelMoment1(double eta) {
+  eta = withinFit(eta);
   if (eta <= 1) {
     return 0.45966 +
            eta * (-1.73965 + eta * (3.37668 + eta * (-3.904945 + eta * (2.49277 + eta * -0.68441))));
@@ -20,6 +26,7 @@ double fresnelMoment1(double eta) {
 }
 
 double fresnelMoment2(double eta) {
+  eta = withinFit(eta);
   if (eta <= 1) {
     return 0.27614 + eta * (-0.87350 + eta * (1.12077 + eta * (-0.65095 + eta * (0.07883 + eta * 0.04860))));
   }
@@ -37,14 +44,8 @@ Rgb SubsurfaceExit::f(Vector3f, Vector3f wi) const {
   return Rgb(scale_ * (1 - fresnelDielectric(std::abs(wi.z), 1, eta_)));
 }
 
-float SubsurfaceExit::pdf(Vector3f wo, Vector3f wi) const {
-  return isSameHemisphere(wo, wi) ? std::abs(wi.z) * kInvPi : 0;
-}
+float SubsurfaceExit::pdf(Vector3f wo, Vector3f wi) const { return cosinePdf(wo, wi); }
 
-LobeSample SubsurfaceExit::sample(Vector3f wo, Point2f u) const {
-  Vector3f wi = sampleCosineHemisphere(u);
-  if (wo.z < 0) wi.z = -wi.z;
-  return {f(wo, wi), wi, pdf(wo, wi), kFlags};
-}
+LobeSample SubsurfaceExit::sample(Vector3f wo, Point2f u) const { return sampleByCosine(*this, wo, u); }
 
 }  // namespace pbrtmedia

@@ -7,7 +7,9 @@ namespace pbrtmedia {
 
 /// First and second moment of the Fresnel reflectance, ∫ F(cos) cos^k dcos, by the polynomials of d'Eon &
 /// Irving 2011 ("A Quantized-Diffusion Model for Rendering Translucent Materials"); `eta`: index of the other
-/// side over that of this one.
+/// side over that of this one. Larger ones than the polynomials are for count as `kLargestMomentIndex`:
+/// beyond it they tell of more light than there is.
+inline constexpr float kLargestMomentIndex = 2.8f;
 double fresnelMoment1(double eta);
 double fresnelMoment2(double eta);
 

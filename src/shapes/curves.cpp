@@ -255,6 +255,7 @@ SurfaceInteraction Curves::interaction(const RayHit& hit, const Ray& ray) const 
   si.dpdv = Vector3f(seenWidth(primitive, u, d) * across);
   si.shading = {si.n, si.dpdu, si.dpdv, {}, {}};
   si.primitive = hit.id;
+  si.turnsToRays = turnsToRays(type_);
   SurfaceInteraction world = transformInteraction(worldFromObject_, si);
   world.p = Point3f(Vec3d(ray.o) + double{hit.t} * Vec3d(ray.d));  // rounded once
   world.wo = Vector3f(normalize(-Vec3d(ray.d)));

@@ -11,6 +11,8 @@
 namespace pbrtmedia {
 
 enum class CurveType : std::uint8_t { Flat, Ribbon, Cylinder };
+/// Whether strands have no side of their own (SurfaceInteraction::turnsToRays).
+constexpr bool turnsToRays(CurveType type) { return type != CurveType::Ribbon; }
 
 /// Strands: thin surfaces along cubic curves, any number of strands of one type under one CTM. Scene-language
 /// reference 13.6.

@@ -27,6 +27,8 @@ struct SurfaceInteraction {
   float dudx = 0, dvdx = 0, dudy = 0, dvdy = 0;
   PrimitiveId primitive;
   std::uint32_t faceIndex = 0;
+  /// A strand without thickness that faces whatever ray meets it: its normals are those of this ray alone.
+  bool turnsToRays = false;
 
   /// Fills the footprint from the auxiliary rays: their hits with the tangent plane, then least squares in
   /// (u, v).

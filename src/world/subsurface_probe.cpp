@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "materials/shading_frame.h"
 #include "world/line_walk.h"
 
 namespace pbrtmedia {
@@ -18,15 +19,8 @@ constexpr std::array<float, kAxes> kAxisProbability{0.25f, 0.25f, 0.5f};
 
 /// Tangents and normal of the entry.
 std::array<Vector3f, kAxes> axesOf(const SurfaceInteraction& entry) {
-  const Normal3f n = entry.shading.n;
-  const Vector3f along = entry.shading.dpdu - dot(n, entry.shading.dpdu) * n;
-  const float length2 = lengthSquared(along);
-  if (!(length2 > 0) || !std::isfinite(length2)) {
-    const Frame frame = Frame::fromZ(n);
-    return {frame.s, frame.t, n};
-  }
-  const Vector3f s = along / std::sqrt(length2);
-  return {s, cross(n, s), n};
+  const Frame frame = shadingFrame(entry);
+  return {frame.s, frame.t, frame.n};
 }
 
 /// One of `count` equal parts of the unit interval, u stretched for reuse.

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "construct/materials.h"
 
+#include <cmath>
+
 #include "construct/probe.h"
+#include "support/source_dir.h"
 
 namespace pbrtmedia::test {
 namespace {
@@ -118,6 +121,38 @@ TEST(ConstructMaterial, AFourierMaterialWithoutItsTableIsBlack) {
   const Attempt missing = with("Material \"fourier\" \"string bsdffile\" \"none.bsdf\"" + kShape);
   EXPECT_TRUE(missing.warns("the surface is black, as in PBRT-v3")) << missing.messages();
   EXPECT_EQ(values(missing), black);
+}
+
+TEST(ConstructMaterial, ABrokenTableIsToldWhereItsNameStands) {
+  const std::filesystem::path file = sourceDir() / "LICENSE";
+  const Attempt broken =
+      with("Material \"fourier\"\nShape \"sphere\" \"string bsdffile\" \"" + file.string() + "\"");
+  const Diagnostic* const told = broken.find(Severity::Warning, "not a tabulated BSDF");
+  ASSERT_NE(told, nullptr) << broken.messages();
+  EXPECT_EQ(told->location.line, 3) << broken.messages();
+  EXPECT_NE(told->message.find("Shape \"sphere\""), std::string::npos) << told->message;
+}
+
+TEST(ConstructMaterial, SaysThatLightBelowTheSurfaceIsNotKnownForAnyIndex) {
+  const std::string below = "where light goes below the surface";
+  for (const std::string type : {"subsurface", "kdsubsurface"}) {
+    for (const char* eta : {".3", "3"}) {
+      const Attempt a = with("Material \"" + type + "\" \"float eta\" " + eta + kShape);
+      EXPECT_TRUE(a.warns(below)) << a.messages();
+      for (const double v : values(a)) EXPECT_TRUE(std::isfinite(v));
+    }
+    EXPECT_TRUE(with("Material \"" + type + "\" \"float eta\" 2.8" + kShape).isSilent());
+    EXPECT_TRUE(with("Material \"" + type + "\" \"float eta\" .36" + kShape).isSilent());
+    const Attempt onShape = with("Material \"" + type + "\"\n" + kShape + " \"float eta\" 3");
+    const Diagnostic* const told = onShape.find(Severity::Warning, below);
+    ASSERT_NE(told, nullptr) << onShape.messages();
+    EXPECT_EQ(told->location.line, 3);
+  }
+  const std::string disney = "Material \"disney\" \"float eta\" 4 ";
+  EXPECT_FALSE(with(disney + kShape).warns(below));
+  EXPECT_TRUE(with(disney + "\"rgb scatterdistance\" [ 1 1 1 ]" + kShape).warns(below));
+  EXPECT_FALSE(
+      with(disney + "\"rgb scatterdistance\" [ 1 1 1 ] \"bool thin\" \"true\"" + kShape).warns(below));
 }
 
 TEST(ConstructMaterial, SaysWhatScatteringBelowSurfacesNeeds) {

@@ -89,6 +89,27 @@ TEST(ConstructWorld, StrandsThatStandAlikeAreOneShape) {
   EXPECT_EQ(primitiveCount(with(object("o", curve(0) + curve(1)) + curve(2) + instance("o"))), 2u);
 }
 
+TEST(ConstructWorld, SaysThatPathsFromLightsFindOtherCurves) {
+  const auto attemptOf = [](const std::string& integrator, const std::string& material,
+                            const std::string& type) {
+    const std::string normals = type == "ribbon" ? " \"normal N\" [ 0 0 1 0 0 1 ]" : "";
+    return attemptWorld(material + " Shape \"curve\" \"string type\" \"" + type +
+                            "\" \"point P\" [ -1 0 0 -.3 0 .2 .3 0 0 1 0 0 ]" + normals,
+                        {}, "Integrator \"" + integrator + "\"");
+  };
+  const std::string told = "turn to the ray that meets them", matte = "Material \"matte\"",
+                    hair = "Material \"hair\"";
+  for (const std::string type : {"flat", "cylinder"}) {
+    EXPECT_TRUE(attemptOf("bdpt", matte, type).warns(told));
+    EXPECT_TRUE(attemptOf("bdpt", hair, type).warns(told));
+    EXPECT_TRUE(attemptOf("sppm", matte, type).warns(told));
+    EXPECT_FALSE(attemptOf("sppm", hair, type).warns(told));
+    EXPECT_TRUE(attemptOf("volpath", matte, type).isSilent());
+    EXPECT_FALSE(attemptOf("bdpt", "Material \"none\"", type).warns(told));
+  }
+  EXPECT_TRUE(attemptOf("bdpt", matte, "ribbon").isSilent());
+}
+
 TEST(ConstructWorld, InstancesAndMovingCurvesAreTheCurves) {
   const std::string curve =
       "Shape \"curve\" \"float width\" .5 \"point P\" [ -1 -.4 0 -.3 .2 .2 .3 -.2 0 1 .4 .1 ] ";

@@ -9,6 +9,15 @@
 #include "materials/fourier_scattering.h"
 #include "materials/fourier_table.h"
 
+namespace {
+
+void abortUnless(bool holds) {
+  if (!holds) std::abort();
+}
+bool isFinite(pbrtmedia::Rgb f) { return std::isfinite(f.r) && std::isfinite(f.g) && std::isfinite(f.b); }
+
+}  // namespace
+
 // Any bytes give a SceneError, or a law that can be asked and sampled everywhere.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace pbrtmedia;
@@ -19,9 +28,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       const Vector3f wo{std::sqrt(1 - z * z), 0, z};
       for (const Point2f u : {Point2f(0, 0), Point2f(0.3f, 0.7f), Point2f(0.9999f, 0.9999f)}) {
         const LobeSample s = law.sample(wo, u);
-        if (s.pdf > 0 && !(std::abs(lengthSquared(s.wi) - 1) < 1e-3f)) std::abort();
-        static_cast<void>(law.f(wo, {0.6f, 0, 0.8f}));
-        if (law.pdf(wo, {0, 0.6f, -0.8f}) < 0) std::abort();
+        abortUnless(s.pdf >= 0 && std::isfinite(s.pdf) && isFinite(s.f));
+        if (s.pdf > 0) abortUnless(std::abs(lengthSquared(s.wi) - 1) < 1e-3f);
+        abortUnless(isFinite(law.f(wo, {0.6f, 0, 0.8f})));
+        const float pdf = law.pdf(wo, {0, 0.6f, -0.8f});
+        abortUnless(pdf >= 0 && std::isfinite(pdf));
       }
     }
   } catch (const SceneError&) {

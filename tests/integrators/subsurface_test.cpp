@@ -154,6 +154,18 @@ TEST(Subsurface, AMixSendsOutWhatItsFirstMaterialLetIn) {
               kLost + kMaxAbsZ * e.red.standardError());
 }
 
+TEST(Subsurface, AMixOfTwoReturnsTheColourOfTheFirst) {
+  SubsurfaceKit kit;
+  const Material* mix = kit.builder.own(std::make_unique<MixMaterial>(
+      *kit.subsurface(Rgb(0.8f), 0.1f), *kit.subsurface(Rgb(0.3f), 0.05f), *kit.rgb(Rgb(0.25f))));
+  kit.builder.addPrimitive({.shape = kit.square(0, 100), .material = mix});
+  kit.sky(1);
+  const auto scene = kit.finish();
+  const Ray ray = rayOf({0.3f, 0, 1}, {-0.3f, 0, -1});
+  const Estimates e = estimate(*makePath(*scene), ray, 1 << 16);
+  EXPECT_NEAR(e.red.mean(), underSky(0.8, -ray.d.z), kLost + kMaxAbsZ * e.red.standardError());
+}
+
 TEST(Subsurface, MediaOutsideStayWhereTheyAre) {
   // A sphere in fog that absorbs: light goes below its surface and out again, and the fog is there on both
   // ways.

@@ -125,6 +125,8 @@ TEST(FourierTable, RefusesWhatIsNone) {
   const std::size_t cosines = sample().cosines.size(), pairs = 14 + cosines + cosines * cosines;
   expect(changed(pairs, 0xffffffff), "beyond its coefficients");
   expect(changed(pairs + 2 * cosines * cosines, 0x7f800000), "coefficient that is no finite number");
+  expect(changed(pairs + 2 * cosines * cosines, std::bit_cast<std::uint32_t>(-2e20f)), "number up to 1e20");
+  EXPECT_EQ(refusal(changed(pairs + 2 * cosines * cosines, std::bit_cast<std::uint32_t>(1e20f))), "");
 }
 
 }  // namespace

@@ -61,6 +61,52 @@ TEST(HairFibre, TiltsTheHighlightTowardTheRoot) {
   EXPECT_GT(at(10), 5 * at(-10));
 }
 
+/// The same direction where the normal is turned by an angle about the fibre.
+Vector3f turned(Vector3f w, float angle) {
+  return {w.x, std::cos(angle) * w.y - std::sin(angle) * w.z, std::sin(angle) * w.y + std::cos(angle) * w.z};
+}
+
+TEST(StrandAdjoint, IsTheAdjointOfStrandsWhateverTheirNormal) {
+  // What a strand scatters along a length of it: (cosine to the fibre of a) f(a, b) |cos b| of radiance is
+  // that of importance with a and b exchanged, each in the frame that its ray gives the strand.
+  const HairParams params{.h = 0.4f, .sigmaA = Rgb(0.2f, 0.5f, 1), .betaM = 0.4f, .betaN = 0.5f};
+  const HairFibre fibre(params);
+  const Lobe importance(Rgb(1), RareLobe(StrandAdjoint{fibre}));
+  const auto cosine = [](Vector3f w) { return std::hypot(w.y, w.z); };
+  int compared = 0;
+  for (const Vector3f a : {polar(20, 30), polar(70, 100), -polar(80, 10)}) {
+    for (const Vector3f b : {polar(50, 200), polar(10, 95), -polar(40, 130)}) {
+      for (const float angle : {0.0f, 0.7f, 2.5f}) {
+        const Vector3f a2 = turned(a, angle), b2 = turned(b, angle);
+        const float radiance = cosine(a) * fibre.f(a, b).g * std::abs(b.z),
+                    back = cosine(b) * importance.f(b2, a2).g * std::abs(a2.z);
+        EXPECT_NEAR(back, radiance, 1e-4f * radiance + 1e-6f) << a << b << angle;
+        EXPECT_EQ(importance.pdf(b2, a2), fibre.pdf(b2, a2));
+        compared += radiance > 1e-3f ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(compared, 10);
+}
+
+TEST(HairFibre, IsFiniteForAnyIndex) {
+  for (const float eta : {0.3f, 0.999f, 1.0f, 1.001f, 1.55f}) {
+    for (const float h : {-1.0f, 0.0f, 0.5f, 1.0f}) {
+      for (const Rgb sigmaA : {Rgb(0), Rgb(1e30f)}) {
+        const HairFibre fibre({.h = h, .eta = eta, .sigmaA = sigmaA});
+        for (const Vector3f wo : {Vector3f(0, 0, 1), Vector3f(1, 0, 0), polar(60, 10), polar(89.9f, 0)}) {
+          const Rgb f = fibre.f(wo, polar(30, 60));
+          EXPECT_TRUE(f.r >= 0 && std::isfinite(f.r)) << f << eta << h << wo;
+          const float pdf = fibre.pdf(wo, polar(30, 60));
+          EXPECT_TRUE(pdf >= 0 && std::isfinite(pdf)) << pdf << eta << h << wo;
+          const LobeSample s = fibre.sample(wo, {0.3f, 0.6f});
+          EXPECT_TRUE(s.pdf >= 0 && std::isfinite(s.pdf) && isFinite(s.wi)) << eta << h << wo;
+        }
+      }
+    }
+  }
+}
+
 TEST(HairFibre, AbsorptionOfAColourIsThatOfItsFit) {
   const Rgb sigmaA = hairAbsorption(Rgb(0.8f, 0.3f, 1), 0);
   EXPECT_NEAR(std::exp(-5.969f * std::sqrt(sigmaA.r)), 0.8f, 1e-5f);
@@ -78,6 +124,20 @@ TEST(HairMaterial, KnowsWhereOnTheFibreItIs) {
   const Vector3f wo = polar(20, 30), wi = polar(60, 200);
   EXPECT_EQ(hair.bsdf(si, TransportMode::Radiance, true).f(wo, wi),
             HairFibre({.h = 2 * 0.85f - 1}).f(wo, wi));
+}
+
+TEST(HairMaterial, IsTheAdjointOfWhatItLiesOn) {
+  const ConstantTexture<float> eta(1.55f), beta(0.3f), tilt(2);
+  const ConstantTexture<Rgb> none(Rgb(0));
+  const HairMaterial hair({.sigmaA = &none, .eta = &eta, .betaM = &beta, .betaN = &beta, .alpha = &tilt});
+  SurfaceInteraction si = test::flatSurface();
+  si.uv = {0.2f, 0.85f};
+  const Vector3f wo = polar(20, 30), wi = polar(60, 200);
+  const HairFibre fibre({.h = 2 * 0.85f - 1});
+  EXPECT_EQ(hair.bsdf(si, TransportMode::Importance, true).f(wo, wi), fibre.f(wi, wo));
+  si.turnsToRays = true;
+  EXPECT_EQ(hair.bsdf(si, TransportMode::Importance, true).f(wo, wi), StrandAdjoint{fibre}.f(wo, wi));
+  EXPECT_EQ(hair.bsdf(si, TransportMode::Radiance, true).f(wo, wi), fibre.f(wo, wi));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ inline const RgbConstant kBlack(Rgb(0)), kQuarter(Rgb(0.25f)), kHalf(Rgb(0.5f)),
     kNegative(Rgb(-1));
 inline const RgbConstant kReddish(Rgb(0.6f, 0.3f, 0.1f)), kBright(Rgb(2, 0.5f, 0.5f));
 inline const RgbConstant kEta(kCopperEta), kK(kCopperK);
-inline const FloatConstant kZero(0), kTenth(0.1f), kFifth(0.2f), kThirty(30), kGlassIndex(1.5f),
+inline const FloatConstant kZero(0), kOne(1), kTenth(0.1f), kFifth(0.2f), kThirty(30), kGlassIndex(1.5f),
     kSomewhat(0.4f), kTwo(2), kHundred(100);
 
 inline Bsdf evaluate(const Material& material, bool mergeSpecular = true,

@@ -252,6 +252,64 @@ TEST(MixMaterial, RefusesMoreLobesThanABsdfHolds) {
   EXPECT_NO_THROW(MixMaterial(fits, opaque, kHalf));
 }
 
+TEST(DisneyMaterial, HasAsManyLobesAsItSaysAndNoMore) {
+  const DisneyParams most = disneyParams();
+  for (const bool isThin : {false, true}) {
+    // Whatever is left out.
+    for (unsigned without = 0; without < 256; ++without) {
+      DisneyParams p = most;
+      p.isThin = isThin;
+      if (without & 1) p.color = &kBlack;
+      if (without & 2) p.sheen = &kZero;
+      if (without & 4) p.clearcoat = &kZero;
+      if (without & 8) p.specTrans = &kZero;
+      if (without & 16) p.metallic = &kOne;
+      if (without & 32) p.flatness = &kZero;
+      if (without & 64) p.diffTrans = &kZero;
+      if (without & 128) p.scatterDistance = &kReddish;
+      const DisneyMaterial material(p);
+      EXPECT_EQ(evaluate(material).lobeCount(), material.maxLobes()) << isThin << without;
+    }
+  }
+  DisneyParams plain = most;
+  plain.sheen = plain.clearcoat = plain.specTrans = &kZero;
+  const DisneyMaterial one(plain), another(plain);
+  EXPECT_EQ(MixMaterial(one, another, kHalf).maxLobes(), 6u);
+}
+
+TEST(DisneyMaterial, HasAFiniteCoatWhateverItsGloss) {
+  for (const float gloss : {-3.0f, 0.0f, 1.0f, 1.0089f, 1.5f}) {
+    const ConstantTexture<float> texture(gloss);
+    DisneyParams p = disneyParams();
+    p.clearcoatGloss = &texture;
+    const Bsdf bsdf = evaluate(DisneyMaterial(p));
+    for (const Vector3f wo : {Vector3f(0, 0, 1), polar(40, 20), polar(85, 20)}) {
+      const float f = bsdf.f(wo, {-wo.x, -wo.y, wo.z}).r;  // the mirror direction
+      EXPECT_TRUE(f > 0 && std::isfinite(f)) << gloss << wo << f;
+      for (int i = 0; i < 64; ++i) {
+        const BsdfSample s = bsdf.sample(wo, {(static_cast<float>(i) + 0.5f) / 64, 0.999999f});
+        EXPECT_TRUE(s.pdf >= 0 && std::isfinite(s.pdf) && std::isfinite(s.f.r)) << gloss << wo << i;
+      }
+    }
+  }
+}
+
+TEST(MixMaterial, LetsLightBelowTheSurfaceByBothWhereTheFirstKnowsAWayOut) {
+  const std::shared_ptr<const SubsurfaceMaterial> below = subsurfaceMaterial();
+  const MatteMaterial matte({.kd = &kHalf, .sigma = &kZero});
+  const auto waysDown = [](const Material& material) {
+    const Bsdf bsdf = evaluate(material);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < bsdf.lobeCount(); ++i)
+      count += any(bsdf.lobe(i).flags() & BsdfFlags::Subsurface) ? 1 : 0;
+    return count;
+  };
+  ASSERT_EQ(waysDown(*below), 1u);
+  EXPECT_EQ(waysDown(MixMaterial(*below, *below, kHalf)), 2u);
+  EXPECT_EQ(waysDown(MixMaterial(*below, matte, kHalf)), 1u);
+  EXPECT_EQ(waysDown(MixMaterial(matte, *below, kHalf)), 0u);
+}
+
 TEST(Materials, RefractImportanceWithoutTheSquaredIndices) {
   GlassParams glass = glassParams();
   UberParams uber = uberParams();

@@ -66,6 +66,23 @@ std::string ballOf(const std::string& material, double radius) {
 }
 const std::string kInFog = "Material \"none\" MediumInterface \"m\" \"\"";
 
+/// A loose mat of strands under the lamp, in two directions.
+std::string strands() {
+  std::string text;
+  for (int i = 0; i < 14; ++i) {
+    const std::string a = std::to_string(-.65 + .1 * i);
+    for (const bool across : {false, true}) {
+      const auto point = [&](const char* along, const char* z) {
+        return (across ? a + ' ' + along : along + (' ' + a)) + ' ' + z + ' ';
+      };
+      text += "Shape \"curve\" \"string type\" \"" + std::string(across ? "flat" : "cylinder") +
+              "\" \"float width\" .05 \"point P\" [ " + point("-.7", "1.2") + point("-.3", "1.5") +
+              point(".3", "1.5") + point(".7", "1.2") + "]\n";
+    }
+  }
+  return text;
+}
+
 std::string sceneOf(const SppmScene& s, const std::string& integrator, int spp) {
   return "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 32\nPixelFilter \"gaussian\" "
          "\"float xwidth\" 1 "
@@ -118,6 +135,13 @@ INSTANTIATE_TEST_SUITE_P(
         SppmScene{"glassAroundFog",
                   kFog + kRoom + ballOf("Material \"glass\" MediumInterface \"m\" \"\"", .6) + kLamp, ""},
         SppmScene{"mixedLobes", roomOf(kMirrorAndMatte) + ballOf(kMirrorAndMatte, .6) + kPoint, ""},
+        // Light comes to the room through strands and from them.
+        SppmScene{"hair",
+                  kRoom + kLamp +
+                      "AttributeBegin Material \"hair\" \"rgb sigma_a\" [ .05 .1 .2 ] \"float beta_m\" .6 "
+                      "\"float beta_n\" .6 " +
+                      strands() + "AttributeEnd\n",
+                  ""},
         SppmScene{"overlap",
                   "MakeNamedMedium \"n\" \"string type\" \"homogeneous\" \"string overlap\" \"add\" \"rgb "
                   "sigma_a\" [ .1 .1 .1 ] "
