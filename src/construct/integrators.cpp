@@ -16,6 +16,7 @@
 #include "integrators/bdpt/bdpt.h"
 #include "integrators/direct/direct_lighting.h"
 #include "integrators/direct/whitted.h"
+#include "integrators/mlt/mlt.h"
 #include "integrators/path/path.h"
 #include "integrators/path/vol_path.h"
 #include "integrators/sppm/sppm.h"
@@ -31,6 +32,10 @@ using ReadIntegrator = IntegratorPlan (*)(ParamReader&, const ConstructOptions&)
 constexpr int kMaxDepth = 1 << 30;
 /// Of one camera ray; all of them are held in memory.
 constexpr int kMaxOcclusionSamples = 1 << 20;
+/// The bootstrap of chains keeps a number for each of its samples of each number of scatterings.
+constexpr int kMaxMltDepth = 255, kMaxBootstrapSamples = 1 << 20, kMaxChains = 1 << 20;
+/// The part of iterations and mutations that --quick takes.
+constexpr int kQuick = 16;
 
 /// `fallback`: number of the default.
 std::string_view readLightSampleStrategy(ParamReader& in, std::size_t fallback) {
@@ -120,7 +125,7 @@ std::int64_t readIterations(ParamReader& in, const ConstructOptions& options) {
   int asked = findIntWithin(in, "numiterations", 64, range);
   asked = findIntWithin(in, "iterations", asked, range);
   if (options.samplesPerPixel) return *options.samplesPerPixel;
-  return options.quick ? std::max(1, asked / 16) : asked;
+  return options.quick ? std::max(1, asked / kQuick) : asked;
 }
 
 /// What photons cannot tell of media, at the Integrator.
@@ -196,6 +201,35 @@ IntegratorPlan readBdpt(ParamReader& in, const ConstructOptions&) {
           .weighsBothEnds = true};
 }
 
+/// --spp, else "mutationsperpixel", a sixteenth of it for --quick.
+std::int64_t readMutations(ParamReader& in, const ConstructOptions& options) {
+  const int asked = findIntWithin(in, "mutationsperpixel", 100, Range::atLeast(1));
+  if (options.samplesPerPixel) return *options.samplesPerPixel;
+  return options.quick ? std::max(1, asked / kQuick) : asked;
+}
+
+IntegratorPlan readMlt(ParamReader& in, const ConstructOptions& options) {
+  MltParams p;
+  p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxMltDepth));
+  p.bootstrapSamples =
+      findIntWithin(in, "bootstrapsamples", p.bootstrapSamples, Range::closed(1, kMaxBootstrapSamples));
+  if (options.quick) p.bootstrapSamples = std::max(1, p.bootstrapSamples / kQuick);
+  p.chains = findIntWithin(in, "chains", p.chains, Range::closed(1, kMaxChains));
+  p.largeStepProbability =
+      findFloatWithin(in, "largestepprobability", p.largeStepProbability, Range::closed(0, 1));
+  p.sigma = findFloatWithin(in, "sigma", p.sigma, Range::nonNegative());
+  const std::int64_t mutations = readMutations(in, options);
+  return {.make = [=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
+            return std::make_unique<MltIntegrator>(scene, p, selectorFor(lightsOf(scene), scene, "power"),
+                                                   selectorFor(lightsOf(scene), scene, "power"),
+                                                   std::move(cameraMedium));
+          },
+          .rendersMedia = true,
+          .samplesPerPixel = mutations,
+          .tracesFromLights = true,
+          .weighsBothEnds = true};
+}
+
 constexpr auto kIntegrators = std::to_array<Plugin<ReadIntegrator>>({
     {"path", readPath},
     {"volpath", readVolPath},
@@ -203,34 +237,9 @@ constexpr auto kIntegrators = std::to_array<Plugin<ReadIntegrator>>({
     {"whitted", readWhitted},
     {"ambientocclusion", readAmbientOcclusion},
     {"bdpt", readBdpt},
+    {"mlt", readMlt},
     {"sppm", readSppm},
 });
-
-/// An integrator of PBRT-v3 that is not here, and the one that converges to the same image.
-struct Substitute {
-  std::string_view name, taken;
-  std::span<const std::pair<ParamKind, std::string_view>> parameters;  ///< that change its noise only
-};
-constexpr std::array<std::pair<ParamKind, std::string_view>, 5> kOfMlt = {
-    {{ParamKind::Integer, "bootstrapsamples"},
-     {ParamKind::Integer, "chains"},
-     {ParamKind::Integer, "mutationsperpixel"},
-     {ParamKind::Float, "largestepprobability"},
-     {ParamKind::Float, "sigma"}}};
-constexpr std::array<Substitute, 1> kSubstitutes = {{{"mlt", "bdpt", kOfMlt}}};
-
-/// The substitute for the entity's type, which is told and set; null where none is needed, or there is none.
-const Substitute* substitute(Entity& entity, Diagnostics& diagnostics) {
-  const auto* const found = std::find_if(kSubstitutes.begin(), kSubstitutes.end(),
-                                         [&](const Substitute& s) { return s.name == entity.type; });
-  if (found == kSubstitutes.end()) return nullptr;
-  std::string message = "Integrator: \"";
-  message.append(found->name).append("\" is not there; \"").append(found->taken);
-  message += "\" takes its place, which converges to the same image but has other noise";
-  diagnostics.tolerated(entity.typeLocation, message);
-  entity.type = found->taken;
-  return found;
-}
 
 /// x0 x1 y0 y1 in pixels, upper exclusive.
 std::optional<Bounds2i> readPixelBounds(ParamReader& in) {
@@ -256,31 +265,15 @@ std::optional<IntegratorPlan> readIntegrator(SceneDescription& scene, const Cons
                                              Diagnostics& diagnostics) {
   Entity& entity = scene.integrator;
   if (!entity.given) entity.type = "path";
-  const Substitute* const instead = substitute(entity, diagnostics);
   const auto* plugin = findPlugin<ReadIntegrator>(kIntegrators, entity, "Integrator", "", diagnostics);
   if (plugin == nullptr) return std::nullopt;
   ParamReader in(entity, diagnostics, "Integrator \"" + entity.type + "\"");
-  std::vector<std::string_view> pbrtNames = {"maxdepth",
-                                             "rrthreshold",
-                                             "lightsamplestrategy",
-                                             "strategy",
-                                             "pixelbounds",
-                                             "nsamples",
-                                             "cossample",
-                                             "iterations",
-                                             "numiterations",
-                                             "photonsperiteration",
-                                             "imagewritefrequency",
-                                             "radius"};
-  if (instead != nullptr) {
-    for (const auto& [kind, name] : instead->parameters) pbrtNames.push_back(name);
-  }
-  in.setPbrtNames(std::move(pbrtNames));
+  in.setPbrtNames({"maxdepth", "rrthreshold", "lightsamplestrategy", "strategy", "pixelbounds", "nsamples",
+                   "cossample", "iterations", "numiterations", "photonsperiteration", "imagewritefrequency",
+                   "radius", "bootstrapsamples", "chains", "mutationsperpixel", "largestepprobability",
+                   "sigma"});
   IntegratorPlan plan = plugin->read(in, options);
   plan.pixelBounds = readPixelBounds(in);
-  if (instead != nullptr) {
-    for (const auto& [kind, name] : instead->parameters) in.has(kind, name);
-  }
   in.reportUnused();
   return plan;
 }

@@ -71,6 +71,30 @@ TEST(ConstructIntegrator, SppmHasItsParameters) {
   EXPECT_TRUE(with(sppm + " \"integer imagewritefrequency\" 8").warns("written once"));
 }
 
+TEST(ConstructIntegrator, MltHasItsParameters) {
+  const std::string few = " \"integer bootstrapsamples\" 200 \"integer mutationsperpixel\" 4",
+                    mlt = "Integrator \"mlt\"" + few;
+  expectEffects({{"Integrator \"path\"", mlt},
+                 {mlt, "Integrator \"mlt\" \"integer bootstrapsamples\" 200 \"integer mutationsperpixel\" 5"},
+                 {mlt, "Integrator \"mlt\" \"integer bootstrapsamples\" 201 \"integer mutationsperpixel\" 4"},
+                 {mlt, mlt + " \"integer maxdepth\" 3"},
+                 {mlt, mlt + " \"integer chains\" 9"},
+                 {mlt, mlt + " \"integer chains\" 9 \"float largestepprobability\" 1"},
+                 {mlt, mlt + " \"integer chains\" 9 \"float sigma\" .2"},
+                 {mlt, mlt + " \"integer pixelbounds\" [ 1 3 1 4 ]"}},
+                with, rendered);
+  expectSame({{mlt, mlt + " \"integer maxdepth\" 5 \"integer chains\" 1000 \"float largestepprobability\" .3 "
+                          "\"float sigma\" .01"}},
+             with, rendered);
+  const auto mutations = [](const ConstructOptions& options) {
+    return attempt("Integrator \"mlt\"" + kRest, {.build = options}).made->sampler->samplesPerPixel();
+  };
+  EXPECT_EQ(mutations({}), 100);
+  EXPECT_EQ(mutations({.quick = true}), 6);
+  EXPECT_EQ(mutations({.samplesPerPixel = 7}), 7);
+  EXPECT_TRUE(with(mlt).isSilent()) << with(mlt).messages();
+}
+
 TEST(ConstructIntegrator, SppmSaysWhatPhotonsCannotTell) {
   const auto with = [](const std::string& medium) {
     return attempt("Integrator \"sppm\"" +
@@ -105,6 +129,9 @@ TEST(ConstructIntegrator, SaysWhatIsWrongAndWhere) {
        {"Integrator \"sppm\" \"integer iterations\" 0", "\"iterations\": found 0, expected >= 1", "",
         kTolerated},
        {"Integrator \"sppm\" \"float radius\" 0", "\"radius\"", ""},
+       {"Integrator \"mlt\" \"integer chains\" 0", "\"chains\": found 0, expected in [1, ", "", kTolerated},
+       {"Integrator \"mlt\" \"float largestepprobability\" 2", "found 2, expected in [0, 1]", "", kTolerated},
+       {"Integrator \"mlt\" \"float sigma\" -1", "expected >= 0", "", kTolerated},
        {"Integrator \"sppm\" \"float rrthreshold\" 1", "unknown parameter \"rrthreshold\"", "", kTolerated},
        {"Integrator \"ambientocclusion\" \"integer maxdepth\" 5", "unknown parameter \"maxdepth\"", "",
         kTolerated},

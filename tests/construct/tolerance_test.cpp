@@ -199,22 +199,6 @@ TEST(Tolerance, NumbersBeyondTheirRangeAreMovedAsInPbrt) {
   same("LightSource \"distant\" \"point to\" [ 0 0 0 ] " + kBall, "the light is left out", kBall, lights);
 }
 
-TEST(Tolerance, IntegratorsOfTheSameImageTakeThePlaceOfThoseThatAreNotThere) {
-  const std::string world = "LightSource \"infinite\" \"rgb L\" [ .5 .5 .5 ] " + kBall;
-  for (const auto& [absent, taken] :
-       {std::pair{"\"mlt\" \"integer chains\" 9 \"float sigma\" .1", "\"bdpt\""}}) {
-    const Attempt a = attemptWorld(world, {}, std::string("Integrator ") + absent),
-                  b = attemptWorld(world, {}, std::string("Integrator ") + taken);
-    ASSERT_TRUE(a.warns("takes its place, which converges to the same image")) << a.messages();
-    EXPECT_EQ(a.diagnostics.all().size(), 1u) << a.messages();
-    ASSERT_TRUE(b.made.has_value());
-    EXPECT_EQ(rendered(a), rendered(b)) << absent;
-    const StrictAttempts strict;
-    EXPECT_TRUE(attemptWorld(world, {}, std::string("Integrator ") + absent).failsWith("is not there"));
-  }
-  EXPECT_TRUE(attemptWorld(world, {}, "Integrator \"occlusion\"").failsWith("unknown type"));
-}
-
 TEST(Tolerance, ImagesOfSingleStrategiesAreToldToBeMissing) {
   const std::string world = "LightSource \"infinite\" " + kBall;
   for (const std::string name : {"visualizestrategies", "visualizeweights"}) {

@@ -136,12 +136,14 @@ std::vector<AgreementScene> scenes() {
   };
 }
 
-std::string textOf(const AgreementScene& scene, const std::string& integrator, double light = 1) {
+std::string textOf(const AgreementScene& scene, const std::string& integrator, double light = 1,
+                   const std::string& parameters = "") {
   std::ostringstream os;
   os << "Film \"image\" \"integer xresolution\" " << kResolution << " \"integer yresolution\" " << kResolution
      << " \"float scale\" " << light << " \"string filename\" \"unused.exr\"\nPixelFilter \"box\"\n"
      << "Sampler \"random\" \"integer pixelsamples\" " << scene.samples << "\nIntegrator \"" << integrator
-     << "\" \"integer maxdepth\" " << scene.maxDepth << "\nLookAt 0 -4 1.6  0 0 .9  0 0 1\n"
+     << "\" \"integer maxdepth\" " << scene.maxDepth << ' ' << parameters
+     << "\nLookAt 0 -4 1.6  0 0 .9  0 0 1\n"
      << scene.view << "Camera " << scene.camera << "\nWorldBegin\n"
      << scene.world << "WorldEnd\n";
   return os.str();
@@ -171,10 +173,10 @@ class Images {
 };
 
 Images render(const AgreementScene& scene, const std::string& integrator, std::uint64_t firstSeed,
-              double light = 1) {
+              double light = 1, const std::string& parameters = "") {
   Images images;
   for (std::uint64_t s = 0; s < kSeeds; ++s)
-    images.add(renderText(textOf(scene, integrator, light), {.seed = firstSeed + s}).image);
+    images.add(renderText(textOf(scene, integrator, light, parameters), {.seed = firstSeed + s}).image);
   return images;
 }
 
@@ -205,6 +207,23 @@ TEST_P(BdptAgreement, WithVolPathPixelByPixel) {
   // Negative control: some more light is seen.
   const Images brighter = render(GetParam(), "bdpt", kSeed, kTooBright);
   const Distance brighterApart = distance(brighter, volpath);
+  EXPECT_GT(brighterApart.ofMean, kMaxAbsZ);
+  std::printf("%-30s worst pixel %.2f, mean %.2f; 5 %% brighter: %.1f, mean %.1f\n", GetParam().name,
+              apart.ofPixel, apart.ofMean, brighterApart.ofPixel, brighterApart.ofMean);
+}
+
+class MltAgreement : public BdptAgreement {};
+
+TEST_P(MltAgreement, WithVolPathPixelByPixel) {
+  const std::string parameters = "\"integer mutationsperpixel\" " + std::to_string(12 * GetParam().samples) +
+                                 " \"integer chains\" 40 \"integer bootstrapsamples\" 2000";
+  const Images mlt = render(GetParam(), "mlt", kSeed, 1, parameters),
+               volpath = render(GetParam(), "volpath", kSeed + 1000);
+  const Distance apart = distance(mlt, volpath);
+  EXPECT_LT(apart.ofMean, kMaxAbsZ);
+  EXPECT_LT(apart.ofPixel, kMaxAbsZ);
+  // Negative control: some more light is seen.
+  const Distance brighterApart = distance(render(GetParam(), "mlt", kSeed, kTooBright, parameters), volpath);
   EXPECT_GT(brighterApart.ofMean, kMaxAbsZ);
   std::printf("%-30s worst pixel %.2f, mean %.2f; 5 %% brighter: %.1f, mean %.1f\n", GetParam().name,
               apart.ofPixel, apart.ofMean, brighterApart.ofPixel, brighterApart.ofMean);
@@ -257,6 +276,8 @@ TEST(Bdpt, TakesTheSameBitsForAnyThreadsAndTiles) {
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(Scenes, MltAgreement, testing::ValuesIn(scenes()),
+                         [](const auto& value) { return std::string(value.param.name); });
 INSTANTIATE_TEST_SUITE_P(Scenes, BdptAgreement, testing::ValuesIn(scenes()),
                          [](const auto& value) { return std::string(value.param.name); });
 

@@ -70,7 +70,7 @@ Rgb BdptIntegrator::radiance(const RayDifferential& ray, SampleContext& context)
   const auto mostScatterings = static_cast<std::size_t>(params_.maxDepth);
   for (std::size_t j = 0; j < fromCamera.vertices.size(); ++j) {
     if (!fromCamera.vertices[j].isConnectible()) continue;
-    const bool isSampled = j < SubpathTracer::kSampledVertices;
+    const bool isSampled = j < setup_.sampledVertices;
     const float uLight = isSampled ? context.sampler.get1D() : context.rng.uniform();
     const Point2f u = isSampled ? context.sampler.get2D() : uniform2D();
     if (takes(1, j + 2)) radiance += connector.lookForLight(fromCamera, j, uLight, u).weighted();
@@ -82,7 +82,7 @@ Rgb BdptIntegrator::radiance(const RayDifferential& ray, SampleContext& context)
   }
   if (!fromLight || !context.splats) return radiance;
   for (std::size_t i = 0; i < fromLight->vertices.size(); ++i) {
-    const Point2f lens = i < SubpathTracer::kSampledVertices ? context.sampler.get2D() : uniform2D();
+    const Point2f lens = i < setup_.sampledVertices ? context.sampler.get2D() : uniform2D();
     if (!fromLight->vertices[i].isConnectible() || !takes(i + 2, 1)) continue;
     const auto onFilm = connector.lookForCamera(*fromLight, i, lens);
     if (onFilm && onFilm->contribution.weight > 0)

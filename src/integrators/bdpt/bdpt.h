@@ -36,6 +36,10 @@ class BdptIntegrator final : public SamplingIntegrator {
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
   bool makesSplats() const override { return true; }
 
+  // For other integrators that take its strategies.
+  const BdptSetup& setup() const { return setup_; }
+  const MediaTopology& media() const { return media_; }
+
  private:
   bool takes(std::size_t s, std::size_t t) const;
 

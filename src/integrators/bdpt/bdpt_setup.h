@@ -18,6 +18,8 @@ struct BdptSetup {
   const MediaTopology* media;          ///< null: media are ignored
   bool mediaEmit;                      ///< some medium may emit
   StrategyWeights weights;
+  /// Scatterings that the Sampler serves; the others take the Rng.
+  std::size_t sampledVertices = 4;
 
   MediaWalk::Context walkContext(SampleContext& context) const {
     return {scene, media, context.counters, context.counters.rays, context.mismatches};

@@ -31,18 +31,19 @@ double specularPdfBack(const Bsdf& bsdf, const SurfaceInteraction& si, Vector3f 
 }  // namespace
 
 float SubpathTracer::get1D() {
-  return path_.vertices.size() <= kSampledVertices ? context_.sampler.get1D() : context_.rng.uniform();
+  return path_.vertices.size() <= setup_.sampledVertices ? context_.sampler.get1D() : context_.rng.uniform();
 }
 Point2f SubpathTracer::get2D() {
-  if (path_.vertices.size() <= kSampledVertices) return context_.sampler.get2D();
+  if (path_.vertices.size() <= setup_.sampledVertices) return context_.sampler.get2D();
   const float x = context_.rng.uniform();
   return {x, context_.rng.uniform()};
 }
 
 Subpath SubpathTracer::fromCamera(const Ray& ray, const MediumState& state, bool isSeen, WePdf pdf,
-                                  FoundRadiance& found) {
+                                  FoundRadiance& found, bool looksBeyond) {
   found.assign(static_cast<std::size_t>(setup_.maxDepth) + 1, Rgb());
   found_ = &found;
+  looksBeyond_ = looksBeyond;
   path_.firstOthers = isSeen ? 1 : 0;
   pdfCamera_ = pdf;
   ray_ = ray;
@@ -83,7 +84,7 @@ std::optional<Subpath> SubpathTracer::fromLight(const Ray& toCamera, const Mediu
 void SubpathTracer::trace() {
   path_.vertices.reserve(std::min(kMostReserved, static_cast<std::size_t>(setup_.maxDepth)));
   firstSize_ = sizeOf(beta_);
-  while (goOn() == Event::Vertex && (found_ || !seesOnlyEmission()) && scatter()) {
+  while (goOn() == Event::Vertex && (looksBeyond_ || !seesOnlyEmission()) && scatter()) {
   }
 }
 

@@ -20,15 +20,13 @@ class SubpathTracer {
  public:
   SubpathTracer(const BdptSetup& setup, SampleContext& context) : setup_(setup), context_(context) {}
 
-  /// With up to setup.maxDepth scatterings, and a last way that only looks for emission. `isSeen`: light
-  /// subpaths find the camera too where this ray starts; `pdf` is its density.
-  Subpath fromCamera(const Ray& ray, const MediumState& state, bool isSeen, WePdf pdf, FoundRadiance& found);
+  /// With up to setup.maxDepth scatterings, and a last way that only looks for emission, unless `looksBeyond`
+  /// is false. `isSeen`: light subpaths find the camera too where this ray starts; `pdf` is its density.
+  Subpath fromCamera(const Ray& ray, const MediumState& state, bool isSeen, WePdf pdf, FoundRadiance& found,
+                     bool looksBeyond = true);
   /// The same from a light, `toCamera` being the camera's ray, of which it is known what media it starts in.
   /// Nothing when no light is sampled.
   std::optional<Subpath> fromLight(const Ray& toCamera, const MediumState& atCamera);
-
-  /// Scatterings that the Sampler serves; the others take the Rng.
-  static constexpr std::size_t kSampledVertices = 4;
 
  private:
   enum class Event { End, Vertex };
@@ -58,6 +56,7 @@ class SubpathTracer {
   const BdptSetup& setup_;
   SampleContext& context_;
   FoundRadiance* found_ = nullptr;  ///< of a path from the camera
+  bool looksBeyond_ = false;        ///< a last way looks for emission
 
   // The way at hand.
   Ray ray_;

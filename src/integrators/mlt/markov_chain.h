@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-2-Clause
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "film/film.h"
+#include "film/splat_buffer.h"
+#include "integrators/mlt/strategy_sample.h"
+
+namespace pbrtmedia {
+
+/// What all chains of a render share.
+struct ChainSetup {
+  const BdptSetup& strategies;
+  const MediaTopology& media;
+  StrategyFilm on;
+  const Film& film;
+  float largeStepProbability;
+  float sigma;
+};
+
+/// A strategy sample and its size, in proportion to which chains visit it.
+struct SizedSample {
+  StrategySample sample;
+  float size = 0;
+};
+/// What the film does not take has no size.
+SizedSample sizedSample(const ChainSetup& setup, int depth, PrimarySampler& sampler,
+                        RenderCounters& counters);
+
+/// One chain: a walk among paths of one number of scatterings, which visits them in proportion to their size
+/// (Metropolis et al. 1953).
+class MarkovChain {
+ public:
+  /// Starts at the independent sample that `randomness` makes; `key`: of all its mutations.
+  MarkovChain(const ChainSetup& setup, int depth, std::uint64_t randomness, std::uint64_t key,
+              RenderCounters& counters);
+  /// From numbers that `save` wrote; `at` is moved behind them. Throws std::length_error for too few.
+  MarkovChain(const ChainSetup& setup, std::uint64_t key, std::span<const double>& at);
+  void save(std::vector<double>& out) const;
+
+  /// Proposes a mutation and goes there or stays. Both ends give splats by the probability of being there, of
+  /// `scale` over their size: that of where it stays is kept for `flush`.
+  void mutate(const ChainSetup& setup, float scale, SplatBuffer& splats, RenderCounters& counters);
+  /// Adds what is kept.
+  void flush(float scale, SplatBuffer& splats);
+
+ private:
+  PrimarySampler sampler_;
+  int depth_;
+  std::uint64_t key_;
+  std::uint64_t mutations_ = 0;
+  SizedSample current_;
+  float kept_ = 0;  ///< how often it was there
+};
+
+}  // namespace pbrtmedia
