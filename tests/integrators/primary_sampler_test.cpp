@@ -88,6 +88,23 @@ TEST(PrimarySampler, StandsWhereItStoodAfterARejection) {
   }
 }
 
+TEST(PrimarySampler, BeginsWithWhatIsSet) {
+  PrimarySampler sampler(0.02f);
+  sampler.proposeLarge(7);
+  sampler.set(Stream::Light, std::vector{0.25f, 0.5f});
+  const std::vector<float> numbers = numbersOf(sampler, Stream::Light, 3);
+  EXPECT_EQ(numbers[0], 0.25f);
+  EXPECT_EQ(numbers[1], 0.5f);
+  sampler.proposeSmall(8, false);
+  EXPECT_NEAR(numbersOf(sampler, Stream::Light, 1).front(), 0.25f, 0.2f);
+  sampler.reject();
+  sampler.proposeLarge(9);
+  sampler.set(Stream::Light, std::vector{0.75f});
+  sampler.reject();
+  sampler.proposeSmall(10, false);
+  EXPECT_NEAR(numbersOf(sampler, Stream::Light, 1).front(), 0.25f, 0.2f);
+}
+
 TEST(PrimarySampler, KeepsStreamsApart) {
   // More numbers in one do not change those of another.
   const auto light = [](std::size_t fromCamera) {

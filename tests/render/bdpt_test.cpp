@@ -215,8 +215,8 @@ TEST_P(BdptAgreement, WithVolPathPixelByPixel) {
 class MltAgreement : public BdptAgreement {};
 
 TEST_P(MltAgreement, WithVolPathPixelByPixel) {
-  const std::string parameters = "\"integer mutationsperpixel\" " + std::to_string(12 * GetParam().samples) +
-                                 " \"integer chains\" 40 \"integer bootstrapsamples\" 2000";
+  const std::string parameters = "\"integer mutationsperpixel\" " + std::to_string(8 * GetParam().samples) +
+                                 " \"integer chains\" 40 \"integer bootstrapsamples\" 1000";
   const Images mlt = render(GetParam(), "mlt", kSeed, 1, parameters),
                volpath = render(GetParam(), "volpath", kSeed + 1000);
   const Distance apart = distance(mlt, volpath);

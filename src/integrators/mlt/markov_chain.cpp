@@ -30,10 +30,9 @@ SizedSample sizedSample(const ChainSetup& setup, int depth, PrimarySampler& samp
   return s;
 }
 
-MarkovChain::MarkovChain(const ChainSetup& setup, int depth, std::uint64_t randomness, std::uint64_t key,
+MarkovChain::MarkovChain(const ChainSetup& setup, int depth, const PrimarySampler& at, std::uint64_t key,
                          RenderCounters& counters)
-    : sampler_(setup.sigma), depth_(depth), key_(key) {
-  sampler_.proposeLarge(randomness);
+    : sampler_(at), depth_(depth), key_(key) {
   current_ = sizedSample(setup, depth_, sampler_, counters);
 }
 

@@ -34,8 +34,8 @@ SizedSample sizedSample(const ChainSetup& setup, int depth, PrimarySampler& samp
 /// (Metropolis et al. 1953).
 class MarkovChain {
  public:
-  /// Starts at the independent sample that `randomness` makes; `key`: of all its mutations.
-  MarkovChain(const ChainSetup& setup, int depth, std::uint64_t randomness, std::uint64_t key,
+  /// Starts where `at` stands; `key`: of the random numbers of all its mutations.
+  MarkovChain(const ChainSetup& setup, int depth, const PrimarySampler& at, std::uint64_t key,
               RenderCounters& counters);
   /// From numbers that `save` wrote; `at` is moved behind them. Throws std::length_error for too few.
   MarkovChain(const ChainSetup& setup, std::uint64_t key, std::span<const double>& at);

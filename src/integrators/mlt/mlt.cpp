@@ -4,7 +4,7 @@
 #include <glog/logging.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -16,6 +16,7 @@
 #include "base/parallel.h"
 #include "integrators/mlt/markov_chain.h"
 #include "render/pass_loop.h"
+#include "samplers/radical_inverse.h"
 
 namespace pbrtmedia {
 namespace {
@@ -70,8 +71,22 @@ class MltIntegrator::Mutations {
   }
   std::uint64_t depths() const { return static_cast<std::uint64_t>(params_.maxDepth) + 1; }
   std::uint64_t keyOf(std::size_t chain) const { return hashCombine(options_.seed, chain, kChainTag); }
-  std::uint64_t randomnessOf(std::uint64_t bootstrapSample) const {
-    return hashCombine(options_.seed, bootstrapSample, kBootstrapTag);
+  int depthOf(std::uint64_t bootstrapSample) const { return static_cast<int>(bootstrapSample % depths()); }
+
+  /// Sample number n of the bootstrap. Those of one number of scatterings are spread evenly over film and
+  /// strategies, each by itself uniform.
+  PrimarySampler bootstrapSample(std::uint64_t n) const {
+    PrimarySampler sampler(params_.sigma);
+    sampler.proposeLarge(hashCombine(options_.seed, n, kBootstrapTag));
+    const std::uint64_t key = hashCombine(options_.seed, n % depths(), kBootstrapTag, kPickTag),
+                        i = n / depths();
+    const auto count = static_cast<std::uint64_t>(params_.bootstrapSamples);
+    const std::array film{scrambledRadicalInverse<2>(i, count, hashCombine(key, 2)),
+                          scrambledRadicalInverse<3>(i, count, hashCombine(key, 3))};
+    const std::array strategy{scrambledRadicalInverse<5>(i, count, hashCombine(key, 5))};
+    sampler.set(PrimarySampler::Stream::Camera, film);
+    sampler.set(PrimarySampler::Stream::Connection, strategy);
+    return sampler;
   }
 
   std::vector<UnitReport> mutate(const Pass& pass) {
@@ -99,10 +114,9 @@ class MltIntegrator::Mutations {
     parallelFor(units.size(), [&](std::size_t unit) {
       for (std::uint64_t n = unit * kSamplesOfUnit; n < std::min(count, (unit + 1) * kSamplesOfUnit); ++n) {
         if (loop_.shouldStop()) return;
-        PrimarySampler sampler(params_.sigma);
-        sampler.proposeLarge(randomnessOf(n));
+        PrimarySampler sampler = bootstrapSample(n);
         try {
-          sizes[n] = sizedSample(setup_, static_cast<int>(n % depths()), sampler, units[unit].counters).size;
+          sizes[n] = sizedSample(setup_, depthOf(n), sampler, units[unit].counters).size;
         } catch (const Interrupted&) {
           return;
         }
@@ -126,7 +140,7 @@ class MltIntegrator::Mutations {
       const double wanted = (static_cast<double>(c) + offset) / params_.chains * sum;
       while (reached <= wanted && n + 1 < sizes.size()) reached += double{sizes[++n]};
       while (sizes[n] == 0) --n;  // rounding, at the end
-      chains_.emplace_back(setup_, static_cast<int>(n % depths()), randomnessOf(n), keyOf(c), counters);
+      chains_.emplace_back(setup_, depthOf(n), bootstrapSample(n), keyOf(c), counters);
     }
   }
 

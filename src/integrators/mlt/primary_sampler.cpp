@@ -72,16 +72,25 @@ void PrimarySampler::move(Coordinate& x) {
   x.value = std::clamp(value - std::floor(value), 0.0f, kOneMinusEpsilon);
 }
 
+PrimarySampler::Coordinate& PrimarySampler::changing(std::size_t stream, std::size_t index) {
+  Coordinate& x = coordinates_[stream][index];
+  moved_.push_back({stream, index, x});
+  return x;
+}
+
+void PrimarySampler::set(Stream stream, std::span<const float> first) {
+  const auto number = static_cast<std::size_t>(stream);
+  std::vector<Coordinate>& list = coordinates_[number];
+  if (list.size() < first.size()) list.resize(first.size());
+  for (std::size_t i = 0; i < first.size(); ++i) changing(number, i) = {first[i], step_};
+}
+
 float PrimarySampler::get1D() {
   std::vector<Coordinate>& list = coordinates_[stream_];
   const std::size_t index = next_[stream_]++;
   if (index == list.size()) list.emplace_back();
-  Coordinate& x = list[index];
-  if (x.step != step_) {
-    moved_.push_back({stream_, index, x});
-    move(x);
-  }
-  return x.value;
+  if (list[index].step != step_) move(changing(stream_, index));
+  return list[index].value;
 }
 
 Point2f PrimarySampler::get2D() {

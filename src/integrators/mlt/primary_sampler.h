@@ -30,6 +30,8 @@ class PrimarySampler final : public Sampler {
   void proposeLarge(std::uint64_t randomness);
   /// Numbers are moved a little; seeds are kept, or drawn anew.
   void proposeSmall(std::uint64_t randomness, bool redrawsSeeds);
+  /// Of a large step: what its stream begins with, instead of independent numbers.
+  void set(Stream stream, std::span<const float> first);
   /// Takes the step at hand back.
   void reject();
 
@@ -61,6 +63,8 @@ class PrimarySampler final : public Sampler {
   void begin(std::uint64_t randomness);
   void drawSeeds();
   void move(Coordinate& x);
+  /// Number `index` of a stream, which is about to change.
+  Coordinate& changing(std::size_t stream, std::size_t index);
 
   float sigma_;
   std::int64_t step_ = 0, lastLarge_ = 0, lastLargeBefore_ = 0;
