@@ -28,7 +28,7 @@ def cell_peaks(grid: np.ndarray) -> np.ndarray:
     return peaks.repeat(CELL, 0).repeat(CELL, 1).repeat(CELL, 2)
 
 
-def image_of(run: Run, grid: np.ndarray, name: str, sigma: float = 1) -> tuple[np.ndarray, float]:
+def image_of(run: Run, grid: np.ndarray, name: str, sigma: float = 6) -> tuple[np.ndarray, float]:
     """Transmittance by regular tracking, one channel, and the seconds it took."""
     path = run.folder / f"{name}.raw"
     path.write_bytes(np.ascontiguousarray(grid, "<f4").tobytes())

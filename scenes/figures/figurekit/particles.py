@@ -10,4 +10,4 @@ SKY = ["../data/evening-sky.exr"]
 
 def sweep(run: Run, medium: str, models: tuple[str, ...], rates: tuple[float, ...], spp: int) -> Comparison:
     settings = {f"{model} {rate:g}": {"model": model, "rate": rate} for model in models for rate in rates}
-    return renders.compare(run, SCENE, settings, spp, (run.pick(2048, 512), {"model": "terminating", "rate": 1}), run.pick(8, 4), {"medium": medium}, files=SKY, longer=4)
+    return renders.compare(run, SCENE, settings, spp, (run.pick(1024, 256), {"model": "terminating", "rate": 1}), run.pick(8, 4), {"medium": medium}, files=SKY, longer=4)

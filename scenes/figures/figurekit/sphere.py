@@ -34,7 +34,7 @@ def transmittance_images(run: Run, medium: str, budget: int, has_marching: bool)
                   found.gain(name, "random medium"), above=1,
                   why="marching with a random offset for each ray has noise instead of structure, little of it at steps that resolve the medium, and its bias is small" if name == "ray marching" else
                   "explorers cost look-ups")
-        run.claim(f"the same in run time, {name}", found.timed_gain(name, "random medium"), above=1, why="as with look-ups; explorers cost time of their own")
+        run.claim(f"the same in run time, {name}", found.timed_gain(name, "random medium"), above=1, why="explorers and the main part through them cost time beside the look-ups")
     if has_marching:
         run.claim("ray marching has less error than Woodcock tracking at equal look-ups, squared error x look-ups of that over its", found.gain("Woodcock", "ray marching"), above=1)
         run.claim("marching darkens or brightens the image, mean difference in shares of the mean", found.bias("ray marching"), above=0,
