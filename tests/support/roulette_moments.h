@@ -6,15 +6,16 @@
 #include <cstddef>
 #include <vector>
 
-#include "transmittance/parts/order_roulette.h"
-
 namespace pbrtmedia::test {
 
-/// Exact moments of the power series about a fixed pivot p, each factor an independent Y of mean m and
-/// variance s^2. Only these two matter, whatever the medium. Orders up to `most` are counted.
+/// Exact moments of a power series about a fixed pivot, each factor an independent Y of mean m and variance
+/// s^2. Only these two matter, whatever the medium. Orders up to `most` are counted. A roulette tells
+/// continuation(k) = P_k / P_{k-1} and termFactor(k) = a_k / a_{k-1}, a_k what term k weighs: 1 / (k! P_k)
+/// for the series of exp.
 class RouletteMoments {
  public:
-  explicit RouletteMoments(const OrderRoulette& roulette, std::size_t most = 90)
+  template <class Roulette>
+  explicit RouletteMoments(const Roulette& roulette, std::size_t most = 90)
       : reached_(most + 2), weight_(most + 1), logFactorial_(most + 2) {
     reached_[0] = weight_[0] = 1;
     for (std::size_t k = 1; k <= most + 1; ++k) {
@@ -24,7 +25,7 @@ class RouletteMoments {
     }
   }
 
-  /// E[(sum_k a_k Y_1 .. Y_k)^2], a_k = 1 / (k! P_k): plain products. Without e^{2p}.
+  /// E[(sum_k a_k Y_1 .. Y_k)^2]: plain products. Without the square of the value at the pivot.
   double productSecondMoment(double m, double variance) const {
     double sum = 0;
     for (std::size_t j = 0; j < weight_.size(); ++j) {

@@ -55,6 +55,8 @@ TEST(DebiasedMoments, HaveTheMeanOfEveryLawOnEveryFunction) {
           expectMean(DebiasedRayMarching{.law = law, .levels = 1, .comb = comb, .reuse = false}, line, sigma,
                      what + ", apart");
           expectMean(PrefixDebiasedRayMarching{.law = law, .comb = comb}, line, sigma, what);
+          expectMean(PrefixDebiasedRayMarching{.law = law, .levels = 1, .comb = comb, .reuse = false}, line,
+                     sigma, what + ", prefix apart");
         }
       }
     }

@@ -87,6 +87,58 @@ TEST(RandomMedium, HasTheVarianceAndCostOfTheCentralRay) {
   }
 }
 
+/// The local weight w of a particle with albedo a: the second moment grows like exp(integral of w - 2
+/// sigma_diff).
+double localWeight(Particle particle, double a, double diff, double rate) {
+  const double r = diff / rate;
+  const bool isValid = a * r + std::abs(1 - r) <= 1;
+  const double nonTerminating = std::abs(diff) * (std::abs(r) + a * std::abs(1 - r));
+  switch (particle) {
+    case Particle::Double:
+      return diff * r;
+    case Particle::NonTerminating:
+      return nonTerminating;
+    case Particle::Terminating:
+      return !isValid ? nonTerminating : r <= 1 ? diff : diff * (3 - 2 / r);
+    case Particle::Adaptive:
+      return r < 1 || !isValid ? nonTerminating : diff * (3 - 2 / r);
+  }
+  return 0;
+}
+
+TEST(RandomMedium, SingleParticlesHaveTheirLocalWeights) {
+  const double tau = simpson(analytic, 0, kLength);
+  for (const Particle particle : {Particle::Terminating, Particle::NonTerminating, Particle::Adaptive}) {
+    for (const double rate : {.7, .9, 1.2}) {
+      const double albedo = .7;
+      const double w =
+          simpson([&](double z) { return localWeight(particle, albedo, analytic(z), rate); }, 0, kLength);
+      const Moments m = measure(
+          RandomMedium{.explorers = 0, .samplingExtinction = rate, .particle = particle, .particleAlbedo = albedo},
+          centralRay(), 1, 40000, kSeed);
+      const std::string what =
+          "particle " + std::to_string(static_cast<int>(particle)) + ", rate " + std::to_string(rate);
+      expectMean(m.value, std::exp(-tau), kSeed, what);
+      expectMean(m.square, std::exp(-2 * tau + w), kSeed, what + ", squares");
+    }
+  }
+}
+
+TEST(RandomMedium, SingleParticlesServeEveryChannel) {
+  const Channels<3> sigma{0, 2, .3};
+  const TrackingCase c = trackingCase(shape("cosine"), 1, 1.1, 4, .5);
+  for (const Particle particle : {Particle::Terminating, Particle::NonTerminating, Particle::Adaptive}) {
+    Rng rng(kSeed);
+    RunningStats values[3];
+    for (int i = 0; i < 20000; ++i) {
+      const auto estimate =
+          runEstimator(RandomMedium{.explorers = 4, .particle = particle}, c.line, sigma, rng);
+      for (std::size_t k = 0; k < 3; ++k) values[k].add(estimate.value[k]);
+    }
+    for (std::size_t k = 0; k < 3; ++k) expectMean(values[k], std::exp(-sigma[k]), kSeed, c.name);
+  }
+}
+
 TEST(RandomMedium, VariesWithTheDifferenceToItsMainPart) {
   const double tau = simpson(analytic, 0, kLength);
   for (const std::uint32_t explorers : {2u, 10u, 25u}) {

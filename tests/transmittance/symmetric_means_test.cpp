@@ -132,5 +132,27 @@ TEST(SymmetricMeans, StopAtTheOrderThatIsAskedFor) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(some[k], all[k]);
 }
 
+/// By hand, after the published loop: N = 3 and scale 2, so x / scale = 1, 2, 0 and m_1 gets (1/3) (2 - 0),
+/// then (1/3) (0 - m_1); m_2 gets (2/3) (m_1 0 - 0); m_3 nothing.
+TEST(PublishedSymmetricMeans, LeaveOutFactorsAndDivideByAllOfThem) {
+  const std::vector<double> x{2, 4, 0};
+  std::vector<double> means(4);
+  EXPECT_DOUBLE_EQ(publishedSymmetricMeans(x, means), 2);
+  EXPECT_EQ(means[0], 1);
+  EXPECT_DOUBLE_EQ(means[1], 2. / 3 - 2. / 9);
+  EXPECT_EQ(means[2], 0);
+  EXPECT_EQ(means[3], 0);
+}
+
+TEST(LeadingProducts, AreThoseOfTheFirst) {
+  const std::vector<double> x{3, -1, 2};
+  std::vector<double> products(4);
+  const double scale = leadingProducts(x, products);
+  EXPECT_DOUBLE_EQ(scale, 2);
+  EXPECT_DOUBLE_EQ(products[1] * scale, 3);
+  EXPECT_DOUBLE_EQ(products[2] * scale * scale, -3);
+  EXPECT_DOUBLE_EQ(products[3] * scale * scale * scale, -6);
+}
+
 }  // namespace
 }  // namespace pbrtmedia

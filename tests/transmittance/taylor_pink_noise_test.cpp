@@ -142,6 +142,21 @@ TEST(TaylorRoulette, TakesEachColumnForThePivotOnce) {
   for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(found[c], permuted[c], 1e-13);
 }
 
+TEST(TaylorRoulette, PlainSeriesTakesTheFirstColumnForThePivot) {
+  const TaylorRoulette plain{.function = PinkNoiseLaw{.6}, .isSymmetrised = false};
+  const std::vector<double> columns{.5, 1.25, .75, 2};
+  double found = 0, one = 1;
+  plain.sumAboutEach(columns, std::span(&one, 1), std::span(&found, 1));
+  // c_j (F_2 - F_1) .. (F_{j+1} - F_1) / P_j, by hand: c_0 = g, c_j = c_{j-1} taylorRatio.
+  const PinkNoiseLaw law{.6};
+  double weight = law(.5), expected = weight;
+  for (std::size_t j = 1; j < columns.size(); ++j) {
+    weight *= law.taylorRatio(.5, static_cast<double>(j)) * (columns[j] - .5) / plain.continuation(j);
+    expected += weight;
+  }
+  EXPECT_NEAR(found, expected, 1e-14);
+}
+
 TEST(TaylorRoulette, StaysFiniteWhereTermsOrTheLawLeaveTheRangeOfDouble) {
   for (const double c : {0., 1e-3, .5, 2.}) {
     const TaylorRoulette roulette{PinkNoiseLaw{c}};
@@ -209,6 +224,24 @@ TEST(TaylorPinkNoise, IsUnbiasedWithinItsRange) {
       }
     }
   }
+}
+
+/// The plain series of the papers' comparisons: symmetrised, it has about half of the variance.
+TEST(TaylorPinkNoise, PlainSeriesIsUnbiasedAndVariesMore) {
+  const auto function = *findCanonicalFunction("cosine");
+  const CanonicalLine line(function, {});
+  const PinkNoiseLaw law{.8};
+  RunningStats values[2];
+  for (const bool symmetric : {false, true}) {
+    Rng rng(kSeed);
+    const TaylorPinkNoise estimator{.law = law, .symmetrisation = symmetric};
+    for (int i = 0; i < 100000; ++i) {
+      values[symmetric].add(runEstimator(estimator, line, Channels<1>{1}, rng).value[0]);
+    }
+    const auto test = zTest(values[symmetric], law(line.integral()));
+    EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+  }
+  EXPECT_GT(values[0].variance(), 1.2 * values[1].variance());
 }
 
 /// Negative control: outside its range estimates are visibly off, and single ones as large as can be.

@@ -11,7 +11,7 @@
 #include "transmittance/estimate.h"
 #include "transmittance/law.h"
 #include "transmittance/parts/comb.h"
-#include "transmittance/parts/nested_march.h"
+#include "transmittance/parts/telescoped_march.h"
 #include "transmittance/parts/telescoping_levels.h"
 #include "transmittance/parts/vacuum.h"
 #include "transmittance/sample_stream.h"
@@ -66,35 +66,13 @@ struct DebiasedRayMarching {
   Estimate<N> operator()(const Line& line, const Channels<N>& sigmaT, SampleStream& stream) const {
     Estimate<N> estimate;
     if (!(maxOf(sigmaT) > 0) || isVacuum(line, stream.rng(), estimate.tally)) return estimate;
-    const std::uint64_t teeth = TelescopingLevels::baseTeeth(n, levels, maxLookups);
-    const TelescopingLevels all(teeth, rate, maxLookups, reuse ? 0 : teeth);
-    const unsigned level = all.draw(stream.uniformAboveZero());
-    const auto add = [&](double column, double factor) {
+    estimate.value = filled<N>(0);
+    const TelescopedMarch march{n, levels, rate, comb, reuse, maxLookups};
+    march.single(line, stream, estimate.tally, [&](double column, double factor) {
       for (std::size_t c = 0; c < N; ++c) {
         estimate.value[c] += factor * transmittanceOf(law, sigmaT[c] * column);
       }
-    };
-    estimate.value = filled<N>(0);
-    const bool corrects = level < all.count();
-    if (!corrects) estimate.tally.capped = 1;
-    if (!reuse || !corrects) {
-      NestedMarch(comb, teeth, 0)(line, stream, estimate.tally, [&](double column) { add(column, 1); });
-    }
-    if (!corrects) return estimate;
-
-    const double weight = 1 / all.probability(level);
-    // Two halves, or if they are read off these, as many parts as there are coarse marches in them.
-    const NestedMarch march(comb, reuse ? teeth : teeth << level, reuse ? level + 1 : 1);
-    const std::uint64_t parts = std::uint64_t{1} << (reuse ? level + 1 : 1);
-    double half[2] = {0, 0};
-    std::uint64_t part = 0;
-    march(line, stream, estimate.tally, [&](double column) {
-      if (reuse) add(column, 1 / static_cast<double>(parts));
-      half[2 * part++ / parts] += column;
     });
-    for (double& column : half) column *= 2 / static_cast<double>(parts);
-    add((half[0] + half[1]) / 2, weight);
-    for (const double column : half) add(column, -weight / 2);
     return estimate;
   }
 };

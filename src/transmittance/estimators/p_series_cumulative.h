@@ -10,6 +10,7 @@
 #include "base/parameters.h"
 #include "transmittance/parts/channel_products.h"
 #include "transmittance/parts/lookup_limit.h"
+#include "transmittance/parts/term_roulette.h"
 #include "transmittance/parts/upper_control.h"
 
 namespace pbrtmedia {
@@ -57,9 +58,9 @@ struct PSeriesCumulative {
     weight.addTo(estimate.value);
     for (double k = 1; !limit.reached(estimate.tally); ++k) {
       weight.multiply(control.nullRatio(stream.uniform() * depth), depth / k);
-      const double size = weight.magnitude();
-      if (stream.uniformAboveZero() > size) break;
-      if (size < 1) weight.multiply(1 / size);
+      const double survival = survivalFactor(weight.magnitude(), stream);
+      if (!(survival > 0)) break;
+      if (survival > 1) weight.multiply(survival);
       weight.addTo(estimate.value);
     }
     return estimate;

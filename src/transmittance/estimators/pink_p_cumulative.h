@@ -13,6 +13,7 @@
 #include "transmittance/law.h"
 #include "transmittance/parts/lookup_limit.h"
 #include "transmittance/parts/running_product.h"
+#include "transmittance/parts/term_roulette.h"
 #include "transmittance/parts/upper_control.h"
 #include "transmittance/traits.h"
 
@@ -77,9 +78,10 @@ struct PinkPCumulative {
         weight[c].multiply(step[c] * factor);
         size = std::max(size, weight[c].magnitude());
       }
-      if (stream.uniformAboveZero() > size) break;
+      const double survival = survivalFactor(size, stream);
+      if (!(survival > 0)) break;
       for (std::size_t c = 0; c < N; ++c) {
-        if (size < 1) weight[c].multiply(1 / size);
+        if (survival > 1) weight[c].multiply(survival);
         addTerm(estimate.value[c], weight[c].value());
       }
       if (estimate.tally.violations > 0 && k > patience) {

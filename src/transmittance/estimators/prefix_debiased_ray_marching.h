@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -13,7 +11,7 @@
 #include "transmittance/estimate.h"
 #include "transmittance/law.h"
 #include "transmittance/parts/comb.h"
-#include "transmittance/parts/nested_march.h"
+#include "transmittance/parts/telescoped_march.h"
 #include "transmittance/parts/telescoping_levels.h"
 #include "transmittance/parts/vacuum.h"
 #include "transmittance/sample_stream.h"
@@ -25,14 +23,14 @@ namespace pbrtmedia {
 /// to a random level j, each divided by the probability of getting there,
 ///   I(k) + sum_{i=k}^{j} (A_{i+1} - A_i) / Pr{J >= i}.
 /// Misso et al. 2022, doi:10.1145/3528223.3530160, Eqs. (15), (22). One march of level j + 1 serves all
-/// terms: A_i is the mean of g over its parts of level i (NestedMarch), and I(k) = A_k. Serves every law; the
-/// level is the same for all channels.
+/// terms: A_i is the mean of g over its parts of level i (NestedMarch), and I(k) = A_k, or under `reuse`
+/// false a march of its own (TelescopedMarch). Serves every law; the level is the same for all channels.
 ///
 /// Bias: none (TelescopingLevels on its end; maxlookups). Range: any. Variance: finite where that of the
 /// single-term form is (DebiasedRayMarching), and of the same size: terms are divided by larger
 /// probabilities, but several of them come together. Cost: n 2^k 2 r / (2 r - 1) look-ups on average,
-/// whatever the optical depth; its variance is infinite for r <= 3/4. g is evaluated twice per coarse march.
-/// Bounds only tell vacuum, which costs none.
+/// n 2^k more without reuse, whatever the optical depth; its variance is infinite for r <= 3/4. g is
+/// evaluated twice per coarse march. Bounds only tell vacuum, which costs none.
 struct PrefixDebiasedRayMarching {
   static constexpr std::string_view kName = "prefix-debiased-ray-marching";
 
@@ -41,6 +39,7 @@ struct PrefixDebiasedRayMarching {
   std::uint64_t levels = 2;  ///< k, the level of the coarse march
   double rate = TelescopingLevels::kRate;
   Comb comb = Comb::Equidistant;
+  bool reuse = true;  ///< the coarse march is part of that of the corrections
   std::uint64_t maxLookups = 0;
 
   static constexpr auto parameters() {
@@ -50,6 +49,8 @@ struct PrefixDebiasedRayMarching {
                       Parameter{"levels", &P::levels, L::kBaseHelp, 0, L::kMostBaseLevel},
                       Parameter{"rate", &P::rate, L::kRateHelp, L::kLeastRate, L::kLargestRate},
                       Parameter{"comb", &P::comb, CombSettings::kCombHelp},
+                      Parameter{"reuse", &P::reuse,
+                                "read the coarse estimate off the march of the corrections, for no look-up"},
                       Parameter{"maxlookups", &P::maxLookups, L::kLimitHelp, 0}};
   }
   EstimatorTraits traits() const {
@@ -64,39 +65,15 @@ struct PrefixDebiasedRayMarching {
   Estimate<N> operator()(const Line& line, const Channels<N>& sigmaT, SampleStream& stream) const {
     Estimate<N> estimate;
     if (!(maxOf(sigmaT) > 0) || isVacuum(line, stream.rng(), estimate.tally)) return estimate;
-    const std::uint64_t teeth = TelescopingLevels::baseTeeth(n, levels, maxLookups);
-    const TelescopingLevels all(teeth, rate, maxLookups, 0);
-    const unsigned level = all.draw(stream.uniformAboveZero());
-    if (level >= all.count()) estimate.tally.capped = 1;
-    const unsigned top = std::min(level + 1, all.count());  // the march is of this level
-    // A_i enters with 1 / Pr{J >= i - 1} - 1 / Pr{J >= i}; of these the first is 1 for i = 0, and the second
-    // is missing at the top.
-    std::array<double, kMostLevels> factor{};
-    for (unsigned i = 0; i <= top; ++i) {
-      factor[i] = (i > 0 ? 1 / all.reaching(i - 1) : 1) - (i < top ? 1 / all.reaching(i) : 0);
-      factor[i] /= static_cast<double>(std::uint64_t{1} << (top - i));  // marches of this level
-    }
     estimate.value = filled<N>(0);
-    // Leaves join like the carries of a binary counter: pending[i] is a march of level i that waits for its
-    // other half.
-    std::array<double, kMostLevels> pending;
-    std::uint64_t leaves = 0;
-    NestedMarch(comb, teeth, top)(line, stream, estimate.tally, [&](double column) {
-      unsigned i = 0;
-      for (std::uint64_t count = leaves++;; count >>= 1, ++i) {
-        for (std::size_t c = 0; c < N; ++c) {
-          estimate.value[c] += factor[i] * transmittanceOf(law, sigmaT[c] * column);
-        }
-        if ((count & 1) == 0) break;
-        column = (pending[i] + column) / 2;
+    const TelescopedMarch march{n, levels, rate, comb, reuse, maxLookups};
+    march.prefix(line, stream, estimate.tally, [&](double column, double factor) {
+      for (std::size_t c = 0; c < N; ++c) {
+        estimate.value[c] += factor * transmittanceOf(law, sigmaT[c] * column);
       }
-      pending[i] = column;
     });
     return estimate;
   }
-
- private:
-  static constexpr std::size_t kMostLevels = 64;
 };
 
 }  // namespace pbrtmedia

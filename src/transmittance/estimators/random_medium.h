@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -19,6 +21,19 @@
 
 namespace pbrtmedia {
 
+/// What becomes of a particle at a point that samples a difference of the medium, r = sigma_diff /
+/// sigma_samp. Szirmay-Kalos et al. 2017, section 4.
+enum class Particle {
+  Double,          ///< goes on, weighted with 1 - r
+  Terminating,     ///< goes on with q_t = |1 - r|, weighted with (1 - r) / q_t, as long as a r + |1 - r| <= 1
+  NonTerminating,  ///< with q_t = |1 - r| / (a |r| + |1 - r|)
+  Adaptive         ///< terminating, unless r < 1 or a r + |1 - r| > 1
+};
+template <>
+inline constexpr std::array kChoices<Particle>{std::string_view("double"), std::string_view("terminating"),
+                                               std::string_view("nonterminating"),
+                                               std::string_view("adaptive")};
+
 /// Random medium manipulation: a main part, piecewise linear through look-ups at fixed explorer points, is
 /// integrated; the difference, of any sign, is sampled by the double particle model: at each point of a
 /// Poisson process of rate sigma_samp the transmittance is scaled by 1 - sigma_diff / sigma_samp.
@@ -31,8 +46,13 @@ namespace pbrtmedia {
 /// default of one half, what explorers missed in an otherwise clear stretch stays stable in the paper's sense
 /// (w <= 2 sigma_t): no second moment above 1. A `samplingextinction` given is used as it is, everywhere.
 ///
+/// The single-particle models, which trace what else becomes of a particle, estimate transmittance by those
+/// that went on; with several channels their probabilities follow the mean over channels.
+///
 /// Bias: none for any bounds that differ where the density is not theirs. Range: any sign, above 1 too.
-/// Variance in one channel: T^2 expm1(integral of sigma_diff^2 / sigma_samp), Eqs. (16) and (17). Cost: the
+/// Variance in one channel: T^2 expm1(integral of sigma_diff^2 / sigma_samp), Eqs. (16) and (17), for the
+/// double particle; with other particles T^2 expm1(integral of w), w = sigma_diff (terminating, r <= 1),
+/// sigma_diff (3 - 2 / r) (terminating, r >= 1), |sigma_diff| (|r| + a |1 - r|) (non-terminating). Cost: the
 /// explorers and the integral of sigma_samp; a look-up less for each explorer on a stretch of known density.
 struct RandomMedium {
   static constexpr std::string_view kName = "random-medium";
@@ -40,7 +60,9 @@ struct RandomMedium {
   std::uint32_t explorers = 10;   ///< see ExploredControl
   double samplingExtinction = 0;  ///< [1/length]; 0: automatic
   double rateFloor = 0.5;         ///< of the automatic one, in (0, 1], times the largest difference possible
-  std::uint64_t maxLookups = 0;   ///< see LookupLimit; explorers count
+  Particle particle = Particle::Double;
+  double particleAlbedo = 0.7;   ///< a, of single particles
+  std::uint64_t maxLookups = 0;  ///< see LookupLimit; explorers count
 
   static constexpr auto parameters() {
     return std::tuple{
@@ -54,6 +76,11 @@ struct RandomMedium {
         Parameter{"ratefloor", &RandomMedium::rateFloor,
                   "least automatic rate, as a share of the largest difference that the bounds allow", 1e-3,
                   1},
+        Parameter{"particle", &RandomMedium::particle,
+                  "what becomes of a particle at such a point: it goes on with a weight (double), or with a "
+                  "probability (single-particle models: terminating, nonterminating, adaptive)"},
+        Parameter{"particlealbedo", &RandomMedium::particleAlbedo,
+                  "of single particles, which scatter instead of going on", 0, 1},
         Parameter{"maxlookups", &RandomMedium::maxLookups, LookupLimit::kWalkHelp, 0}};
   }
   EstimatorTraits traits() const {
@@ -104,7 +131,7 @@ struct RandomMedium {
           ++tally.nullCollisions;
           Channels<N> factor;
           for (std::size_t c = 0; c < N; ++c) factor[c] = 1 - sigmaT[c] * difference / rate;
-          weight.multiply(factor);
+          weight.multiply(factor, particle == Particle::Double ? 1 : followed(weight, factor, stream));
           return !weight.isZero();
         });
         return !weight.isZero();
@@ -115,6 +142,26 @@ struct RandomMedium {
       estimate.value[c] = weight[c].isZero() ? 0 : weight[c].timesExp(-sigmaT[c] * mainPart);
     }
     return estimate;
+  }
+
+ private:
+  /// The factor of a single particle that goes on; 0 for one that does not.
+  template <std::size_t N>
+  double followed(const ChannelProducts<N>& weight, const Channels<N>& transmitted,
+                  SampleStream& stream) const {
+    double all = 0, scatter = 0, transmit = 0, ratio = 0;
+    for (std::size_t c = 0; c < N; ++c) {
+      const double size = weight[c].magnitude(), r = 1 - transmitted[c];
+      all += size;
+      scatter += size * particleAlbedo * std::abs(r);
+      transmit += size * std::abs(transmitted[c]);
+      ratio += size * r;
+    }
+    const double sum = scatter + transmit;
+    const bool terminates = particle != Particle::NonTerminating && sum <= all &&
+                            (particle == Particle::Terminating || ratio >= all);
+    const double whole = terminates ? all : sum;
+    return stream.uniform() * whole < transmit ? whole / transmit : 0;
   }
 };
 

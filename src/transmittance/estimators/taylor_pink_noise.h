@@ -33,7 +33,8 @@ namespace pbrtmedia {
 /// the first three terms always, the rest with probability 0.1 and then by roulette (TaylorRoulette). Misso
 /// et al. 2022, doi:10.1145/3528223.3530160, Eqs. (25), (26). Powers are elementary symmetric means of the
 /// marches, and a sampled pivot is each march in turn (Kettunen et al. 2021), as the paper suggests and
-/// leaves open. Marches are jittered, one point in each step. The marches serve all channels.
+/// leaves open; without symmetrisation they are plain products about the first march. Marches are jittered,
+/// one point in each step. The marches serve all channels.
 ///
 /// Bias: none as long as E|alpha - F_i| < alpha + 1/C^2, for each pivot that occurs; so always where F_i < 2
 /// alpha + 1/C^2, for example with the pivot at a constant majorant. Beyond, the sum has no mean. Variance:
@@ -51,6 +52,7 @@ struct TaylorPinkNoise {
   double pivotDepth = 1;    ///< of the largest channel, for Pivot::Fixed
   std::uint64_t terms = 3;  ///< k: orders below it are certain
   double correctionProbability = 0.1;
+  bool symmetrisation = true;
   std::uint64_t maxLookups = 0;  ///< of one march, see LookupLimit
 
   static constexpr auto parameters() {
@@ -65,6 +67,7 @@ struct TaylorPinkNoise {
                   TaylorRoulette::kMostTerms},
         Parameter{"correctionprobability", &Self::correctionProbability,
                   "probability of going on beyond these terms", 1e-3, 1},
+        Parameter{"symmetrisation", &Self::symmetrisation, TaylorRoulette::kSymmetrisationHelp},
         Parameter{"maxlookups", &Self::maxLookups, LookupLimit::kCombHelp, 0}};
   }
   EstimatorTraits traits() const {
@@ -82,7 +85,7 @@ struct TaylorPinkNoise {
             .boundedCost = false,
             .laws = LawSet::pinkNoise()};
   }
-  TaylorRoulette roulette() const { return {law, terms, correctionProbability}; }
+  TaylorRoulette roulette() const { return {law, terms, correctionProbability, symmetrisation}; }
 
   template <DensityLine Line, std::size_t N>
   Estimate<N> operator()(const Line& line, const Channels<N>& sigmaT, SampleStream& stream) const {

@@ -29,6 +29,7 @@ struct UnbiasedRayMarching {
   Pivot pivot = Pivot::Sampled;
   double pivotDepth = 1;
   bool symmetrisation = true;
+  ElementaryMeans elementaryMeans = ElementaryMeans::Exact;
   Comb comb = Comb::Equidistant;
   EndpointMatching endpointMatching = EndpointMatching::Auto;
   Roulette roulette = Roulette::Aggressive;
@@ -45,6 +46,7 @@ struct UnbiasedRayMarching {
         Parameter{"pivotdepth", &Self::pivotDepth, SeriesMarch::kPivotDepthHelp, 0, 1e6},
         Parameter{"symmetrisation", &Self::symmetrisation,
                   "average products over all choices of combs, and over the comb that is the pivot"},
+        Parameter{"elementarymeans", &Self::elementaryMeans, SeriesMarch::kMeansHelp},
         Parameter{"comb", &Self::comb, CombSettings::kCombHelp},
         Parameter{"endpointmatching", &Self::endpointMatching, CombSettings::kMatchingHelp},
         Parameter{"roulette", &Self::roulette, SeriesMarch::kRouletteHelp},
@@ -65,6 +67,11 @@ struct UnbiasedRayMarching {
         .control =
             pivot == Pivot::Majorant ? EstimatorTraits::Control::Any : EstimatorTraits::Control::CostOnly};
     if (roulette == Roulette::None) SeriesMarch::markTruncated(traits);
+    if (symmetrisation && elementaryMeans == ElementaryMeans::Published) {
+      traits.bias = EstimatorTraits::Bias::Biased;
+      traits.biasNote =
+          "the published means lack factors; of the order of the combs' variance, in rare terms";
+    }
     return traits;
   }
 
@@ -73,6 +80,7 @@ struct UnbiasedRayMarching {
     return SeriesMarch{.pivot = pivot,
                        .pivotDepth = pivotDepth,
                        .isSymmetrised = symmetrisation,
+                       .means = elementaryMeans,
                        .roulette = roulette,
                        .zeroOrderProbability = zeroOrderProbability,
                        .expansion = expansion,

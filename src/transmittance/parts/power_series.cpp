@@ -47,8 +47,10 @@ ScaledDouble sumOfTerms(double y, std::span<const double> means, std::span<const
 
 /// sums[c] += exp(-sigmaT[c] pivot) sum_k sigmaT[c]^k m_k(differences) / (k! P_k).
 void addSeries(std::span<const double> differences, double pivot, std::span<const double> factors,
-               std::span<const double> sigmaT, std::span<double> means, std::span<ScaledDouble> sums) {
-  const double scale = elementarySymmetricMeans(differences, means);
+               std::span<const double> sigmaT, ElementaryMeans kind, std::span<double> means,
+               std::span<ScaledDouble> sums) {
+  const double scale = kind == ElementaryMeans::Exact ? elementarySymmetricMeans(differences, means)
+                                                      : publishedSymmetricMeans(differences, means);
   for (std::size_t c = 0; c < sigmaT.size(); ++c) {
     const double y = sigmaT[c] * scale;
     const ScaledDouble atPivot = ScaledDouble::exp(-sigmaT[c] * pivot);
@@ -59,7 +61,7 @@ void addSeries(std::span<const double> differences, double pivot, std::span<cons
 }  // namespace
 
 void symmetricSeries(std::span<const double> columns, double pivot, const OrderRoulette& roulette,
-                     std::span<const double> sigmaT, std::span<double> out) {
+                     std::span<const double> sigmaT, std::span<double> out, ElementaryMeans kind) {
   Scratch scratch;
   std::pmr::vector<double> differences(columns.size(), scratch.resource());
   std::pmr::vector<double> means(columns.size() + 1, scratch.resource());
@@ -67,12 +69,12 @@ void symmetricSeries(std::span<const double> columns, double pivot, const OrderR
   std::pmr::vector<ScaledDouble> sums(sigmaT.size(), scratch.resource());
   for (std::size_t i = 0; i < columns.size(); ++i) differences[i] = pivot - columns[i];
   fillFactors(roulette, factors);
-  addSeries(differences, pivot, factors, sigmaT, means, sums);
+  addSeries(differences, pivot, factors, sigmaT, kind, means, sums);
   for (std::size_t c = 0; c < out.size(); ++c) out[c] = sums[c].value();
 }
 
 void symmetricSeriesAboutEach(std::span<const double> columns, const OrderRoulette& roulette,
-                              std::span<const double> sigmaT, std::span<double> out) {
+                              std::span<const double> sigmaT, std::span<double> out, ElementaryMeans kind) {
   Scratch scratch;
   std::pmr::vector<double> differences(columns.size() - 1, scratch.resource());
   std::pmr::vector<double> means(columns.size(), scratch.resource());
@@ -83,7 +85,7 @@ void symmetricSeriesAboutEach(std::span<const double> columns, const OrderRoulet
     for (std::size_t i = 0; i < differences.size(); ++i) {
       differences[i] = columns[p] - columns[i < p ? i : i + 1];
     }
-    addSeries(differences, columns[p], factors, sigmaT, means, sums);
+    addSeries(differences, columns[p], factors, sigmaT, kind, means, sums);
   }
   for (std::size_t c = 0; c < out.size(); ++c) {
     sums[c] *= 1 / static_cast<double>(columns.size());

@@ -34,6 +34,14 @@ inline constexpr std::array kChoices<Roulette>{std::string_view("aggressive"), s
                                                std::string_view("cmf"), std::string_view("cumulative"),
                                                std::string_view("none")};
 
+/// The elementary symmetric means of a series: exact, or for comparison as the code published with Misso et
+/// al. 2023 computes them, which leaves out the first factor of every mean and divides by the number of all
+/// factors where the number of those so far belongs. That is biased.
+enum class ElementaryMeans { Exact, Published };
+template <>
+inline constexpr std::array kChoices<ElementaryMeans>{std::string_view("exact"),
+                                                      std::string_view("published")};
+
 /// Partial sums of exp(-sigma_c P) sum_k prod_{i <= k} sigma_c (P - F_i) w_i, one factor after the other: the
 /// series with plain products, where P is the pivot and F_i are independent estimates of the integral of the
 /// density. No term leaves its range.
@@ -48,8 +56,8 @@ class ProductSeries {
   void multiply(double column, double weight) {
     for (std::size_t c = 0; c < N; ++c) term_[c] *= ScaledDouble(sigmaT_[c] * (pivot_ - column)) * weight;
   }
-  void divide(double probability) {
-    for (ScaledDouble& t : term_) t *= 1 / probability;
+  void multiply(double factor) {
+    for (ScaledDouble& t : term_) t *= factor;
   }
   void addTerm() {
     for (std::size_t c = 0; c < N; ++c) sum_[c] += term_[c];
@@ -78,10 +86,12 @@ class ProductSeries {
 /// pivot P: exp(-sigma P) sum_k sigma^k m_k(P - F_1, .., P - F_N) / (k! P_k), Kettunen et al. 2021 (24) and
 /// (26). `columns` are F_1 .. F_N; out[c] is the value for sigmaT[c]. Cost N^2.
 void symmetricSeries(std::span<const double> columns, double pivot, const OrderRoulette& roulette,
-                     std::span<const double> sigmaT, std::span<double> out);
+                     std::span<const double> sigmaT, std::span<double> out,
+                     ElementaryMeans means = ElementaryMeans::Exact);
 /// With N + 1 estimates, each in turn the pivot of the others: the mean of these. Kettunen et al. 2021 (31).
 /// Cost N^3.
 void symmetricSeriesAboutEach(std::span<const double> columns, const OrderRoulette& roulette,
-                              std::span<const double> sigmaT, std::span<double> out);
+                              std::span<const double> sigmaT, std::span<double> out,
+                              ElementaryMeans means = ElementaryMeans::Exact);
 
 }  // namespace pbrtmedia

@@ -17,6 +17,7 @@
 #include "transmittance/parts/comb_size.h"
 #include "transmittance/parts/lookup_limit.h"
 #include "transmittance/parts/power_series.h"
+#include "transmittance/parts/term_roulette.h"
 #include "transmittance/sample_stream.h"
 #include "transmittance/traits.h"
 
@@ -40,12 +41,16 @@ struct SeriesMarch {
   static constexpr std::string_view kZeroOrderHelp = "aggressive roulette: how often the first term is all";
   static constexpr std::string_view kExpansionHelp =
       "c: terms up to it are certain, then they go on with c/k; 0: the control's optical depth, at least 1";
+  static constexpr std::string_view kMeansHelp =
+      "of symmetrised products: exact, or as in the code published with Misso et al. 2023 (published), "
+      "biased";
   static constexpr std::string_view kTupleSizeHelp =
       "look-ups of one comb; 0: so that the mean cost is that of p-series CMF";
 
   Pivot pivot = Pivot::Sampled;
   double pivotDepth = 1;
   bool isSymmetrised = true;
+  ElementaryMeans means = ElementaryMeans::Exact;
   Roulette roulette = Roulette::Aggressive;
   double zeroOrderProbability = 0.9;
   double expansion = 2;  ///< 0: the control's depth, at least 1
@@ -140,9 +145,9 @@ struct SeriesMarch {
     std::pmr::vector<double> columns(order + (pivot == Pivot::Sampled ? 1 : 0), &memory);
     for (double& column : columns) column = combs.integral();
     if (pivot == Pivot::Sampled) {
-      symmetricSeriesAboutEach(columns, orders, sigmaT, value);
+      symmetricSeriesAboutEach(columns, orders, sigmaT, value, means);
     } else {
-      symmetricSeries(columns, given, orders, sigmaT, value);
+      symmetricSeries(columns, given, orders, sigmaT, value, means);
     }
   }
 
@@ -163,9 +168,9 @@ struct SeriesMarch {
     ProductSeries<N> series(sigmaT, about);
     for (std::uint64_t k = 1; !limit.reached(tally); ++k) {
       series.multiply(combs.integral(), 1 / static_cast<double>(k));
-      const double probability = std::min(series.largestTerm(), 1.0);
-      if (!(stream.uniformAboveZero() <= probability)) break;
-      series.divide(probability);
+      const double survival = survivalFactor(series.largestTerm(), stream);
+      if (!(survival > 0)) break;
+      series.multiply(survival);
       series.addTerm();
     }
     return series.value();

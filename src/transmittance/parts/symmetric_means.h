@@ -13,5 +13,11 @@ namespace pbrtmedia {
 /// combination, so no digits cancel when all x have one sign, unlike Girard-Newton sums of powers. Relative
 /// error then below about N 2^-52. Cost: N * means.size().
 double elementarySymmetricMeans(std::span<const double> x, std::span<double> means);
+/// What the code published with Misso et al. 2023 computes in their place, scaled in the same way: for n = 1
+/// .. N and k = n - 1 down to 1, m_k += k / N (m_{k-1} x_n - m_k). So no product has x_1, and none has all of
+/// them. Only for comparison: the series is biased with it.
+double publishedSymmetricMeans(std::span<const double> x, std::span<double> means);
+/// The products of the first k of x_1 .. x_N: means[k] = x_1 .. x_k / scale^k with the same scale.
+double leadingProducts(std::span<const double> x, std::span<double> products);
 
 }  // namespace pbrtmedia
