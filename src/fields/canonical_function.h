@@ -82,4 +82,9 @@ std::vector<std::string_view> canonicalFunctionNames();
 /// The function called `name`; nothing when there is none.
 std::optional<CanonicalFunction> findCanonicalFunction(std::string_view name);
 
+/// Keywords of families of functions, one for each place on a second axis.
+std::vector<std::string_view> densityFamilyNames();
+/// The member of the family `name` at u in [0, 1]; nothing when there is no such family.
+std::optional<CanonicalFunction> findDensityFamily(std::string_view name, double u);
+
 }  // namespace pbrtmedia

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "base/hash.h"
@@ -102,6 +104,60 @@ CanonicalFunction compositeSine() {
           {s}};
 }
 
+/// The generator that the code published with Misso et al. 2022 draws its noise from: PCG-XSH-RR 64/32
+/// (O'Neill 2014), state 0x12312, stream 0xadcd, 32 bits to a number.
+class NoiseNumbers {
+ public:
+  /// Uniform in [low, high).
+  double uniform(double low, double high) { return low + (high - low) * (next() * 0x1p-32); }
+
+ private:
+  static constexpr std::uint64_t kFactor = 6364136223846793005u, kIncrement = 2 * 0xadcd + 1;
+  std::uint32_t next() {
+    const std::uint64_t old = state_;
+    state_ = old * kFactor + kIncrement;
+    return std::rotr(static_cast<std::uint32_t>((old >> 18 ^ old) >> 27), static_cast<int>(old >> 59));
+  }
+  std::uint64_t state_ = (kIncrement + 0x12312) * kFactor + kIncrement;
+};
+
+/// Of which the first ten sines are those of composite-sine, to six digits.
+CanonicalFunction noise30() {
+  NoiseNumbers numbers;
+  Stretch s{.end = 1};
+  for (int i = 0; i < 30; ++i) {
+    const double period = numbers.uniform(0.01, 0.5), phase = numbers.uniform(0, 4);
+    const double amplitude = numbers.uniform(0.1, 2);
+    addSine(s, {period, phase, amplitude}, amplitude);
+  }
+  return withMeanOne(
+      {"noise-30", "sum of thirty random sines (A/2)(1 + sin(2 pi x / P + phase)), mean 1",
+       "Misso et al. 2022, the noise of its reciprocals; composite-sine is that of its other maps"},
+      {s});
+}
+
+/// ((cos(3 z / 2) + 1) / 2)^5 (sin(z / 2) + 2) / 3 as a sum of waves: with t = 3 z / 2 the power is cos^10(t
+/// / 2) = 2^-10 (C(10, 5) + 2 sum_k C(10, 5 - k) cos(k t)).
+CanonicalFunction szirmayKalos() {
+  constexpr std::array kBinomials{252., 210., 120., 45., 10., 1.};
+  Stretch s{.end = 20};
+  for (std::size_t k = 0; k < kBinomials.size(); ++k) {
+    const double weight = kBinomials[k] * (k > 0 ? 2 : 1) / 1024, frequency = 1.5 * static_cast<double>(k);
+    if (k == 0) {
+      s.constant = weight * 2 / 3;
+      s.waves.push_back({weight / 3, 0.5, -kQuarterTurn});
+      continue;
+    }
+    s.waves.push_back({weight * 2 / 3, frequency, 0});
+    // cos(k t) sin(z / 2) = (sin((1.5 k + 0.5) z) - sin((1.5 k - 0.5) z)) / 2
+    s.waves.push_back({weight / 6, frequency + 0.5, -kQuarterTurn});
+    s.waves.push_back({weight / 6, frequency - 0.5, kQuarterTurn});
+  }
+  return {{"szirmay-kalos", "((cos(3 z / 2) + 1) / 2)^5 (sin(z / 2) + 2) / 3 on [0, 20]",
+           "Szirmay-Kalos et al. 2017 (21), the central ray; its depth is 3.415684"},
+          {s}};
+}
+
 CanonicalFunction stepSine() {
   constexpr std::array<double, 5> kAmplitudes{.061865, .069937, .050750, .008637, .034073};
   Stretch thin{.end = 1, .constant = 0.1}, thick{.end = 5, .constant = 3};
@@ -159,6 +215,25 @@ CanonicalFunction piecewiseRandom() {
                      std::move(cells));
 }
 
+/// max(0, 2.2 + sum over k < 8 of 2^(-k H) cos(2 pi 2^k 1.37 t + 0.7 k^2 + 3 u)), H from 2 at u = 0 to 0.2 at
+/// u = 1.
+CanonicalFunction slab(double u) {
+  const double roughness = 2 + (0.2 - 2) * u;
+  Stretch s{.end = 1, .constant = 2.2};
+  for (int k = 0; k < 8; ++k) {
+    s.waves.push_back({std::exp2(-roughness * k), kTwoPi * 1.37 * std::exp2(k), 0.7 * k * k + 3 * u});
+  }
+  return withMeanOne({"slab", "max(0, 2.2 + eight octaves of cosines, amplitudes 2^(-k H)), mean 1",
+                      "stands for the slab of Kettunen et al. 2021, figures 14 and 15"},
+                     {s});
+}
+
+struct Family {
+  std::string_view name;
+  CanonicalFunction (*build)(double u);
+};
+constexpr std::array kFamilies{Family{"slab", slab}};
+
 struct Entry {
   std::string_view name;
   CanonicalFunction (*build)();
@@ -178,7 +253,9 @@ constexpr std::array kFunctions{Entry{"constant", constant},
                                 Entry{"spike", spike},
                                 Entry{"fractal-a", fractalA},
                                 Entry{"fractal-b", fractalB},
-                                Entry{"piecewise-random", piecewiseRandom}};
+                                Entry{"piecewise-random", piecewiseRandom},
+                                Entry{"noise-30", noise30},
+                                Entry{"szirmay-kalos", szirmayKalos}};
 
 }  // namespace
 
@@ -186,6 +263,19 @@ std::vector<std::string_view> canonicalFunctionNames() {
   std::vector<std::string_view> names;
   for (const Entry& entry : kFunctions) names.push_back(entry.name);
   return names;
+}
+
+std::vector<std::string_view> densityFamilyNames() {
+  std::vector<std::string_view> names;
+  for (const Family& family : kFamilies) names.push_back(family.name);
+  return names;
+}
+
+std::optional<CanonicalFunction> findDensityFamily(std::string_view name, double u) {
+  for (const Family& family : kFamilies) {
+    if (family.name == name) return family.build(u);
+  }
+  return std::nullopt;
 }
 
 std::optional<CanonicalFunction> findCanonicalFunction(std::string_view name) {

@@ -10,7 +10,8 @@ CanonicalLine::CanonicalLine(const CanonicalFunction& function, const Setup& set
     : function_(&function),
       setup_(setup),
       toX_(setup.length > 0 ? function.width() / setup.length : 0),
-      hasProvenBounds_(setup.control >= 1 && setup.lower <= 1 && setup.blind >= setup.superVoxels) {
+      hasProvenBounds_(setup.control >= 1 && setup.lower <= 1 && setup.blind >= setup.superVoxels &&
+                       setup.lowerDensity <= setup.scale * function.range().min) {
   if (!(setup.length > 0)) return;
   const double width = function.width();
   const auto share = [&](unsigned i) { return static_cast<double>(i) / setup.superVoxels; };
@@ -24,12 +25,31 @@ CanonicalLine::CanonicalLine(const CanonicalFunction& function, const Setup& set
     // Products as in density(), whose rounding keeps order.
     const double largest = setup.scale * range.max, smallest = setup.scale * range.min;
     DensityBounds<double> bound{std::max(setup.control * largest, setup.leastUpper), setup.lower * smallest};
+    if (setup.lowerDensity > 0) bound.lower = std::min(setup.lowerDensity, bound.upper);
     if (i == setup.blind) bound.upper = bound.lower = 0;
-    if (setup.hasMeans) bound.mean = setup.scale * function.integral(a, b) / (b - a);
-    const double sExit = i + 1 == setup.superVoxels ? setup.length : share(i + 1) * setup.length;
+    const double cut = std::min(b, setup.end * toX_);
+    if (setup.hasMeans && a < cut) bound.mean = setup.scale * function.integral(a, cut) / (cut - a);
+    const double sExit =
+        std::min(i + 1 == setup.superVoxels ? setup.length : share(i + 1) * setup.length, length());
     const double sEnter = intervals_.empty() ? 0 : intervals_.back().sExit;
     if (sEnter < sExit) intervals_.push_back({sEnter, sExit, bound});
   }
+}
+
+void CanonicalLine::setUppers(std::span<const double> uppers, bool clamps) {
+  for (std::size_t i = 0; i < intervals_.size(); ++i) {
+    DensityBounds<double>& bound = intervals_[i].bound;
+    bound.upper = uppers[i];
+    bound.lower = std::min(bound.lower, bound.upper);
+  }
+  hasProvenBounds_ = false;
+  clamps_ = clamps;
+}
+
+std::size_t CanonicalLine::intervalAt(double s) const {
+  const auto after = std::upper_bound(intervals_.begin(), intervals_.end(), s,
+                                      [](double value, const Interval& i) { return value < i.sEnter; });
+  return after == intervals_.begin() ? 0 : static_cast<std::size_t>(after - intervals_.begin()) - 1;
 }
 
 double CanonicalLine::upperIntegral() const {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -31,6 +33,10 @@ class CanonicalLine {
     bool hasMeans = true;      ///< intervals know their mean density
     double leastUpper = 0;     ///< upper bounds are raised to this density
     unsigned blind = kNone;    ///< the interval whose upper bound says 0, whatever lies there
+    /// Above 0: lower bounds are this density in place of `lower`, as far as upper bounds allow, even where
+    /// it is above the function.
+    double lowerDensity = 0;
+    double end = std::numeric_limits<double>::infinity();  ///< the segment is cut there; >= 0
   };
   struct Interval {
     double sEnter, sExit;
@@ -39,15 +45,19 @@ class CanonicalLine {
 
   CanonicalLine(const CanonicalFunction& function, const Setup& setup);
 
-  double length() const { return setup_.length; }
+  double length() const { return std::min(setup_.length, setup_.end); }
   /// The bounds are known to be true unless the setup spoils them, by a control below 1, a lower bound above
-  /// 1, or a blind interval.
+  /// 1 or above the function, or a blind interval; or setUppers does.
   bool hasProvenBounds() const { return hasProvenBounds_; }
   double density(double s) const {
     if (record_ != nullptr) [[unlikely]] {
       record_->push_back(s);
     }
-    return setup_.scale * (*function_)(((setup_.offset + s) - setup_.offset) * toX_);
+    const double density = setup_.scale * (*function_)(((setup_.offset + s) - setup_.offset) * toX_);
+    if (clamps_) [[unlikely]] {
+      return std::min(density, intervals_[intervalAt(s)].bound.upper);
+    }
+    return density;
   }
   void densities(std::span<const double> s, std::span<double> out) const { densitiesOneByOne(*this, s, out); }
   template <class Visit>
@@ -61,7 +71,8 @@ class CanonicalLine {
   void walkPieces(Visit&& visit) const {
     const std::span<const double> x = function_->knots();
     for (std::size_t i = 1; i < x.size(); ++i) {
-      const double enter = x[i - 1] / toX_, exit = i + 1 < x.size() ? x[i] / toX_ : length();
+      const double enter = x[i - 1] / toX_,
+                   exit = i + 1 < x.size() ? std::min(x[i] / toX_, length()) : length();
       if (enter < exit && !visit(enter, exit)) return;
     }
   }
@@ -70,12 +81,23 @@ class CanonicalLine {
   const CanonicalFunction& function() const { return *function_; }
   const Setup& setup() const { return setup_; }
   std::span<const Interval> intervals() const { return intervals_; }
-  /// Exact integral of the density over the segment.
-  double integral() const { return setup_.scale * function_->integral() / function_->width() * length(); }
+  /// Exact integral of the density over the segment, unclamped.
+  double integral() const {
+    if (!(setup_.length > 0)) return 0;
+    const double width = function_->width();
+    const double of =
+        setup_.end < setup_.length ? function_->integral(0, setup_.end * toX_) : function_->integral();
+    return setup_.scale * of / width * setup_.length;
+  }
   /// Integral of the upper bounds over the segment.
   double upperIntegral() const;
   /// Appends the s of every later look-up to `points`; null: no longer.
   void record(std::vector<double>* points) { record_ = points; }
+  /// Other upper bounds, one for each interval, unproven; lower ones give way. With `clamps` the density is
+  /// cut to them: what progressive null tracking sees. Not while somebody uses the line.
+  void setUppers(std::span<const double> uppers, bool clamps);
+  /// Number of the interval that holds s.
+  std::size_t intervalAt(double s) const;
 
  private:
   const CanonicalFunction* function_;
@@ -84,6 +106,7 @@ class CanonicalLine {
   bool hasProvenBounds_;
   std::vector<Interval> intervals_;
   std::vector<double>* record_ = nullptr;
+  bool clamps_ = false;
 };
 
 static_assert(PiecewiseCubicLine<CanonicalLine>);

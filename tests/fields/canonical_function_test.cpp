@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace pbrtmedia {
 namespace {
@@ -121,6 +122,62 @@ TEST(CanonicalFunction, CompositeFunctionsHaveTheExtremaOfThePaper) {
   // Half a digit of the printed value, and half a digit of each of the five printed amplitudes.
   EXPECT_NEAR(std::exp(-steps.integral(0, 1)), 0.8123, 5e-5 + 5 * 5e-7);
   EXPECT_NEAR(std::exp(-steps.integral(0, 3)), 0.0016, 5e-5);
+}
+
+/// From another implementation of the generator, whose first ten sines are the printed ones of
+/// composite-sine.
+TEST(CanonicalFunction, NoiseIsThatOfThePublishedGenerator) {
+  const CanonicalFunction noise = named("noise-30");
+  EXPECT_NEAR(noise.integral(), 1, 1e-12);
+  const double expected[][2] = {{0, 1.4912081141896922},
+                                {.25, .9957855790747009},
+                                {.5, .8784598015901504},
+                                {.77, 1.0669592241214032},
+                                {1, .7449392470291161}};
+  for (const auto& [x, value] : expected) EXPECT_NEAR(noise(x), value, 1e-12) << x;
+}
+
+TEST(CanonicalFunction, TheMediumOfSzirmayKalosHasItsNumbers) {
+  const CanonicalFunction f = named("szirmay-kalos");
+  double square = 0;
+  constexpr int kN = 400000;
+  for (int i = 0; i < kN; ++i) {
+    const double z = (i + .5) * 20 / kN;
+    const double expected = std::pow((std::cos(1.5 * z) + 1) / 2, 5) * (std::sin(z / 2) + 2) / 3;
+    ASSERT_NEAR(f(z), expected, 1e-14);
+    square += expected * expected * 20 / kN;
+  }
+  EXPECT_NEAR(f.integral(), 3.415684, 5e-7);
+  EXPECT_NEAR(square, 1.960753, 5e-7);
+  EXPECT_NEAR(f.range().max, .95598, 5e-6);
+}
+
+TEST(CanonicalFunction, FamiliesHaveAMemberForEachPlace) {
+  ASSERT_EQ(densityFamilyNames().size(), 1u);
+  EXPECT_FALSE(findDensityFamily("slap", 0));
+  const CanonicalFunction smooth = findDensityFamily("slab", 0).value(),
+                          rough = findDensityFamily("slab", 1).value();
+  for (const double t : {.1, .5, .9}) {
+    double sum = 2.2;
+    for (int k = 0; k < 8; ++k) {
+      sum += std::exp2(-2. * k) * std::cos(2 * std::numbers::pi * std::exp2(k) * 1.37 * t + .7 * k * k);
+    }
+    EXPECT_NEAR(
+        smooth(t) / smooth(.3),
+        sum /
+            [] {
+              double at = 2.2;
+              for (int k = 0; k < 8; ++k) {
+                at += std::exp2(-2. * k) *
+                      std::cos(2 * std::numbers::pi * std::exp2(k) * 1.37 * .3 + .7 * k * k);
+              }
+              return at;
+            }(),
+        1e-12);
+  }
+  EXPECT_NEAR(smooth.integral(), 1, 1e-12);
+  EXPECT_NEAR(rough.integral(), 1, 1e-12);
+  EXPECT_GT(rough.range().max, 1.2 * smooth.range().max);
 }
 
 TEST(CanonicalFunction, FractalsHaveTheExtremaOfTheirDefinition) {

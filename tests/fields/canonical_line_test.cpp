@@ -69,6 +69,57 @@ TEST(CanonicalLine, ControlAndLowerScaleTheBounds) {
   EXPECT_FALSE(plain.intervals()[0].bound.hasMean());
 }
 
+TEST(CanonicalLine, LowerBoundsMayBeDensitiesThatFunctionsGoBelow) {
+  const CanonicalFunction f = findCanonicalFunction("linear-up").value();
+  const CanonicalLine line(f, {.scale = 3, .superVoxels = 4, .lowerDensity = 2});
+  EXPECT_EQ(line.intervals()[3].bound.lower, 2);
+  EXPECT_NEAR(line.intervals()[0].bound.lower, 1.5, 1e-9) << "no higher than the upper one";
+  EXPECT_FALSE(line.hasProvenBounds());
+  const CanonicalFunction step = findCanonicalFunction("step").value();
+  EXPECT_TRUE(CanonicalLine(step, {.lowerDensity = 0.2}).hasProvenBounds());
+  EXPECT_FALSE(CanonicalLine(step, {.lowerDensity = 0.21}).hasProvenBounds());
+}
+
+TEST(CanonicalLine, IsCutAtItsEnd) {
+  const CanonicalFunction f = findCanonicalFunction("step").value();
+  const CanonicalLine whole(f, {.length = 4, .superVoxels = 4});
+  const CanonicalLine line(f, {.length = 4, .superVoxels = 4, .end = 2.5});
+  EXPECT_EQ(line.length(), 2.5);
+  ASSERT_EQ(line.intervals().size(), 3u);
+  EXPECT_EQ(line.intervals()[2].sExit, 2.5);
+  EXPECT_EQ(line.intervals()[2].bound.upper, whole.intervals()[2].bound.upper);
+  EXPECT_NEAR(line.integral(), 2.4 * 0.2 + 0.1 * 2.2, 1e-12);
+  EXPECT_NEAR(line.intervals()[2].bound.mean * 0.5, 0.4 * 0.2 + 0.1 * 2.2, 1e-12);
+  EXPECT_EQ(line.density(1.9), whole.density(1.9));
+  double end = 0;
+  line.walkPieces([&](double, double b) {
+    end = b;
+    return true;
+  });
+  EXPECT_EQ(end, 2.5);
+  const CanonicalLine beyond(f, {.length = 4, .end = 9});
+  EXPECT_EQ(beyond.length(), 4);
+  EXPECT_EQ(beyond.integral(), whole.integral());
+}
+
+TEST(CanonicalLine, TakesOtherUpperBoundsAndClampsToThem) {
+  const CanonicalFunction f = findCanonicalFunction("step").value();
+  CanonicalLine line(f, {.lower = 1, .superVoxels = 2});
+  EXPECT_EQ(line.intervalAt(0), 0u);
+  EXPECT_EQ(line.intervalAt(0.5), 1u);
+  EXPECT_EQ(line.intervalAt(1), 1u);
+  const double uppers[] = {0.1, 1};
+  line.setUppers(uppers, false);
+  EXPECT_FALSE(line.hasProvenBounds());
+  EXPECT_EQ(line.upperIntegral(), 0.55);
+  EXPECT_EQ(line.intervals()[0].bound.lower, 0.1);
+  EXPECT_EQ(line.density(0.8), 2.2);
+  line.setUppers(uppers, true);
+  EXPECT_EQ(line.density(0.2), 0.1);
+  EXPECT_EQ(line.density(0.8), 1);
+  EXPECT_NEAR(line.integral(), 1, 1e-12) << "of the density that is";
+}
+
 TEST(CanonicalLine, AnyLengthCarriesTheSameShape) {
   const CanonicalFunction f = findCanonicalFunction("cosine").value();
   for (const double length : {1e-30, 0.5, 1e30}) {
