@@ -59,7 +59,7 @@ class KnownBounds : public testing::TestWithParam<std::string_view> {
   TrialStats trials(const LabProblem& problem) const {
     return runTrials(estimator_, problem, {}, kSeed, {.trials = kTrials});
   }
-  double exact(const LabProblem& problem) const { return problem.transmittance(estimator_.law()); }
+  double exact(const LabProblem& problem) const { return problem.exact(estimator_); }
 };
 
 TEST_P(KnownBounds, VacuumCostsNothing) {

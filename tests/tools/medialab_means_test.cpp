@@ -46,7 +46,7 @@ StressVerdict verdictOf(const LabEstimator& estimator, const Cell& cell, double 
                                          static_cast<std::uint64_t>(1000 * cell.depth + 10 * cell.control));
   result.stats = runTrials(estimator, problem, {}, seed, kLimit);
   return judge(estimator.traits(),
-               {.exact = problem.transmittance(estimator.law()) + shift,
+               {.exact = problem.exact(estimator) + shift,
                 .depth = problem.depth(),
                 .controlDepth = problem.controlDepth(),
                 .control = cell.control,

@@ -255,7 +255,9 @@ TEST(StressCases, HaveNamesOfTheirOwnAndTheDepthTheySay) {
 
 TEST(Heatmap, TheBestIsTheLeastAndRoundingCountsAsNothing) {
   Heatmap map{
-      2, 1, 1, {{"a", std::vector<Heatmap::Pixel>(2), true}, {"b", std::vector<Heatmap::Pixel>(2), true}}};
+      .width = 2,
+      .height = 1,
+      .layers = {{"a", std::vector<Heatmap::Pixel>(2), true}, {"b", std::vector<Heatmap::Pixel>(2), true}}};
   const auto set = [&](std::size_t layer, std::size_t pixel, double variance, double lookups) {
     Heatmap::Pixel& p = map.layers[layer].pixels[pixel];
     p.exact = p.mean = 0.5;
@@ -277,9 +279,9 @@ TEST(Heatmap, TheBestIsTheLeastAndRoundingCountsAsNothing) {
   map.layers[0].isUnbiased = false;
   EXPECT_EQ(map.best(1, Heatmap::Measure::Variance), Heatmap::kNoBest);
   map.layers[0].isUnbiased = true;
-  EXPECT_EQ(map.efficiency(0), 1);
-  EXPECT_DOUBLE_EQ(map.transmittance(0), 0.99);
-  EXPECT_NEAR(map.transmittance(1), 0.01, 1e-15);
+  EXPECT_EQ(map.row(0), 1);
+  EXPECT_DOUBLE_EQ(map.column(0), 0.99);
+  EXPECT_NEAR(map.column(1), 0.01, 1e-15);
   const Image picture = heatmapPicture(map, Heatmap::Measure::Variance, "test");
   EXPECT_GT(picture.width(), 400);
   const Image channels = heatmapChannels(map, "medialab", true);

@@ -37,8 +37,8 @@ void expectIn(const ProcessResult& result, const std::string& part) {
 
 TEST(Medialab, HelpAndMistakesHaveTheRightStatus) {
   EXPECT_EQ(lab("--help").status, 0);
-  for (const char* command :
-       {"list", "estimate", "heatmap", "converge", "profile", "stress", "precision", "docs"}) {
+  for (const char* command : {"list", "estimate", "heatmap", "converge", "profile", "levels", "running",
+                              "power-law", "progressive", "stress", "precision", "docs"}) {
     EXPECT_EQ(lab(std::string(command) + " --help").status, 0);
   }
   EXPECT_EQ(lab("").status, 1);
@@ -126,7 +126,8 @@ TEST(Medialab, NumbersHaveRanges) {
                                 "estimate --offset nan",
                                 "heatmap --width 0",
                                 "heatmap --height 5000",
-                                "heatmap --top-efficiency -1",
+                                "heatmap --range 0 1",
+                                "heatmap --row-range -1 1",
                                 "heatmap --lookups 0",
                                 "heatmap --trials 1",
                                 "converge --doublings 25",
@@ -248,7 +249,7 @@ TEST(Medialab, ListsEverythingThereIs) {
   EXPECT_EQ(list["patterns"].size(), 5u);
   const ProcessResult text = lab("list");
   EXPECT_EQ(text.status, 0);
-  for (const char* kind : {"estimators", "functions", "laws"}) {
+  for (const char* kind : {"estimators", "reciprocals", "functions", "laws"}) {
     for (const json& one : list[kind]) expectIn(text, "  " + one["name"].get<std::string>());
   }
   EXPECT_EQ(json::parse(lab("list laws --format json").output).size(), 1u);
@@ -259,7 +260,7 @@ TEST(Medialab, ThePageOfEstimatorsKnowsAllOfThem) {
   std::stringstream page;
   page << in.rdbuf();
   const json list = json::parse(lab("list --format json").output);
-  for (const char* kind : {"estimators", "laws"}) {
+  for (const char* kind : {"estimators", "reciprocals", "laws"}) {
     for (const json& one : list[kind]) {
       const std::string heading = "\n### `" + one["name"].get<std::string>() + "`\n";
       EXPECT_NE(page.str().find(heading), std::string::npos) << heading << "run medialab docs";

@@ -32,7 +32,7 @@ class Run:
     # Programs
 
     def lab(self, command: str, files: list[Path] | None = None, **options: Any) -> list[Row]:
-        """Rows of `medialab command`; an option `top_efficiency=1` is --top-efficiency 1, a list has commas between, True is a flag."""
+        """Rows of `medialab command`; an option `lower_depth=1` is --lower-depth 1, a list has commas between, True is a flag."""
         words = [command]
         for name, value in options.items():
             if value is None or value is False:

@@ -134,6 +134,7 @@ LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
   std::vector<LabTable::Skipped> skipped;
   const std::vector<LabEstimator> estimators = o.selection.select(skipped);
   for (const auto& s : skipped) table.skip(s.what, s.reason);
+  noteQuantity(table, estimators);
   const std::vector<CanonicalFunction> functions = o.functions.select();
   std::size_t total = 0, done = 0;
   for (const auto& f : functions) total += estimators.size() * problemChoices(o.problem, f).size();
@@ -144,7 +145,7 @@ LabTable convergeTable(const ConvergeOptions& o, const StopSignal& stop) {
     for (const CanonicalFunction& function : functions) {
       for (const ProblemChoice& choice : problemChoices(o.problem, function)) {
         const LabProblem problem = makeProblem(o.problem, function, choice);
-        Curve curve{estimator, function, choice, problem.transmittance(estimator.law())};
+        Curve curve{estimator, function, choice, problem.exact(estimator)};
         if (const std::string why = whyNotApplicable(estimator, problem.line); !why.empty()) {
           table.skip(curve.name(), why);
           done += o.doublings + 1;

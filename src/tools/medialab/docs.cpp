@@ -22,6 +22,10 @@ const std::vector<std::string> kFunctions{"constant",  "cosine", "gaussian",  "h
                                           "linear-up", "step",   "fractal-a", "piecewise-random"};
 constexpr double kControl = 1.1;
 constexpr double kDepths[] = {0.1, 1, 4};
+/// Those of reciprocals: above 0 everywhere.
+const std::vector<std::string> kPositiveFunctions{"constant", "composite-sine", "gaussian-m23",
+                                                  "step",     "spike",          "fractal-a"};
+constexpr double kLooseControl = 1.5;
 
 void printParameters(std::ostream& out, const std::vector<ParameterDescription>& parameters) {
   if (parameters.empty()) return;
@@ -91,6 +95,45 @@ void printLaws(std::ostream& out) {
   }
 }
 
+void printReciprocal(std::ostream& out, std::string_view name) {
+  const AnyReciprocal estimator = *findReciprocal(name);
+  const ReciprocalTraits t = traitsOf(estimator);
+  out << "\n### `" << name << "`\n\n" << sentence(t.summary) << " Source: " << sentence(t.source) << "\n\n";
+  out << "- **Needs.** " << controlSentence(t.control) << "\n";
+  out << "- **Bias.** " << sentence(nameOf(t.bias));
+  if (!t.biasNote.empty()) out << ' ' << sentence(t.biasNote);
+  out << "\n- **Domain.** " << sentence(t.domain) << "\n";
+  out << "- **Variance.** "
+      << (t.finiteVariance ? "Finite in the domain under a bounding control"
+                           : "Finite in a part of the domain");
+  if (!t.varianceNote.empty()) out << ": " << t.varianceNote;
+  out << ".\n- **Cost.** " << t.cost << (t.boundedCost ? ", bounded" : ", unbounded") << ".\n";
+  out << "- **Use when** " << t.useWhen << ".\n";
+  printParameters(out, parametersOf(estimator));
+}
+
+/// Unbiased estimates of 1/F, and their table.
+void printReciprocals(std::ostream& out) {
+  out << R"(
+## Reciprocals
+
+`medialab estimate --quantity reciprocal` measures estimators of 1/F, F > 0 being the optical depth, or any integral, of which
+only estimates are known. Normalising a pdf that is itself an integral asks for it, and so does dividing by the probability that a random
+process finds what it has found (specular manifold sampling); 1 over an estimate is biased. `alpha` is the integral of the upper control, `F_i`
+the estimate of F that one factor of a series is made of. Nothing of these estimators but their look-ups knows of lines:
+`reciprocal/geometric_series.h` takes any estimates, or events.
+
+| estimator | bias | control | domain | finite variance | look-ups |
+| --- | --- | --- | --- | --- | --- |
+)";
+  for (const std::string_view name : reciprocalNames()) {
+    const ReciprocalTraits t = traitsOf(*findReciprocal(name));
+    out << "| [`" << name << "`](#" << name << ") | " << nameOf(t.bias) << " | " << nameOf(t.control) << " | "
+        << t.domain << " | " << (t.finiteVariance ? "yes" : "in part") << " | " << t.cost << " |\n";
+  }
+  for (const std::string_view name : reciprocalNames()) printReciprocal(out, name);
+}
+
 /// Three significant digits.
 std::string brief(double value) {
   if (std::isnan(value)) return "";
@@ -126,19 +169,22 @@ std::map<std::pair<std::string, std::string>, Measured> measuredCells(const LabT
   for (const auto& row : table.rows()) {
     if (row[depthAt].number() != depth) continue;
     const LabEstimator estimator(row[estimatorAt].text());
-    const bool isUnbiased = estimator.traits().bias == EstimatorTraits::Bias::Unbiased;
+    const bool isUnbiased = estimator.bias() == EstimatorTraits::Bias::Unbiased;
     const double exact = row[exactAt].number(), variance = row[varianceAt].number();
     const double rounding = kRounding * exact;
     cells[{row[estimatorAt].text(), row[functionAt].text()}] = {
         variance > rounding * rounding ? variance * row[costAt].number() * unit : 0,
         isUnbiased ? 0 : row[meanAt].number() / exact - 1,
-        isUnbiased && std::holds_alternative<ExponentialLaw>(estimator.law())};
+        isUnbiased && (estimator.quantity() != Quantity::Transmittance ||
+                       std::holds_alternative<ExponentialLaw>(estimator.law()))};
   }
   return cells;
 }
 
 /// One table of variance times a cost: estimators down, functions across, the least of each function in bold.
-void printMeasured(std::ostream& out, const LabTable& table, double depth, const char* cost, double unit) {
+void printMeasured(std::ostream& out, const LabTable& table, const std::vector<std::string>& functions,
+                   const std::vector<std::string_view>& estimators, double depth, const char* cost,
+                   double unit) {
   const auto cells = measuredCells(table, depth, cost, unit);
   std::map<std::string, double> least;
   for (const auto& [at, cell] : cells) {
@@ -147,13 +193,13 @@ void printMeasured(std::ostream& out, const LabTable& table, double depth, const
     if (!isFirst && cell.value < best->second) best->second = cell.value;
   }
   out << "\n| estimator |";
-  for (const std::string& f : kFunctions) out << ' ' << f << " |";
+  for (const std::string& f : functions) out << ' ' << f << " |";
   out << "\n| --- |";
-  for (std::size_t i = 0; i < kFunctions.size(); ++i) out << " --- |";
+  for (std::size_t i = 0; i < functions.size(); ++i) out << " --- |";
   out << '\n';
-  for (const std::string_view name : estimatorNames()) {
+  for (const std::string_view name : estimators) {
     out << "| `" << name << "` |";
-    for (const std::string& f : kFunctions) {
+    for (const std::string& f : functions) {
       const auto cell = cells.find({std::string(name), f});
       out << ' ';
       if (cell != cells.end()) {
@@ -165,18 +211,42 @@ void printMeasured(std::ostream& out, const LabTable& table, double depth, const
   }
 }
 
-EstimateOptions measured(const DocsOptions& o) {
+EstimateOptions measured(const DocsOptions& o, const std::vector<std::string>& functions,
+                         const std::vector<double>& depths, double control, const std::string& quantity) {
   EstimateOptions e;
   e.lab = o.lab;
-  e.functions.words = kFunctions;
-  e.problem.depths.assign(std::begin(kDepths), std::end(kDepths));
-  e.problem.controls = {kControl};
+  e.functions.words = functions;
+  e.problem.depths = depths;
+  e.problem.controls = {control};
   e.trials = o.trials;
-  e.lab.command = "medialab estimate --extinction ";
-  for (const std::string& f : kFunctions) e.lab.command += f + (f == kFunctions.back() ? "" : ",");
-  e.lab.command += " --depth 0.1,1,4 --control " + formatNumber(kControl) + " --trials " +
-                   std::to_string(o.trials) + " --seed " + std::to_string(o.lab.seed);
+  e.lab.command = "medialab estimate " + quantity + "--extinction ";
+  for (const std::string& f : functions) e.lab.command += f + (f == functions.back() ? "" : ",");
+  e.lab.command += " --depth ";
+  for (const double depth : depths)
+    e.lab.command += formatNumber(depth) + (depth == depths.back() ? "" : ",");
+  e.lab.command += " --control " + formatNumber(control) + " --trials " + std::to_string(o.trials) +
+                   " --seed " + std::to_string(o.lab.seed);
   return e;
+}
+EstimateOptions measured(const DocsOptions& o) {
+  return measured(o, kFunctions, {std::begin(kDepths), std::end(kDepths)}, kControl, "");
+}
+EstimateOptions measuredReciprocals(const DocsOptions& o) {
+  EstimateOptions e = measured(o, kPositiveFunctions, {1}, kLooseControl, "--quantity reciprocal ");
+  e.selection.quantity = Quantity::Reciprocal;
+  return e;
+}
+
+/// 1/F scales with F, and so does every estimate: one depth tells all.
+void printReciprocalMeasurements(std::ostream& out, const LabTable& table, const DocsOptions& o) {
+  out << "\n### Measured reciprocals: variance x look-ups\n\nAt depth 1 (1/F and all its estimates scale "
+         "with 1/F), "
+         "under a constant control "
+      << formatNumber(kLooseControl)
+      << " times the maximum, on functions\nthat stay above 0. Bold: the least among the unbiased "
+         "estimators.\n\n```\n"
+      << measuredReciprocals(o).lab.command << "\n```\n";
+  printMeasured(out, table, kPositiveFunctions, reciprocalNames(), 1, "lookups", 1);
 }
 
 void printMeasurements(std::ostream& out, const LabTable& table, const DocsOptions& o) {
@@ -199,12 +269,12 @@ void printMeasurements(std::ostream& out, const LabTable& table, const DocsOptio
       << measured(o).lab.command << "\n```\n";
   for (const double depth : kDepths) {
     out << "\n### Optical depth " << formatNumber(depth) << ": variance x look-ups\n";
-    printMeasured(out, table, depth, "lookups", 1);
+    printMeasured(out, table, kFunctions, estimatorNames(), depth, "lookups", 1);
     if (o.lab.omitSeconds) continue;
     out << "\n### Optical depth " << formatNumber(depth) << ": variance x nanoseconds\n\n"
         << "On one thread of the machine that made this page; look-ups here evaluate a formula, which costs\n"
            "between a few and 150 ns.\n";
-    printMeasured(out, table, depth, "seconds_per_estimate", 1e9);
+    printMeasured(out, table, kFunctions, estimatorNames(), depth, "seconds_per_estimate", 1e9);
   }
 }
 
@@ -219,8 +289,15 @@ void printLab(std::ostream& out) {
 medialab list                                                                      # this page's first half, as text or JSON
 medialab estimate --estimator all --extinction cosine --depth 1,4 --control 1,2    # mean, variance, cost, with errors
 medialab heatmap --extinction gaussian -o gaussian                                 # over transmittance and control: CSV, EXR, PNG
+medialab estimate --quantity reciprocal --extinction composite-sine --control 1,2    # unbiased estimates of 1 / depth
+medialab heatmap --extinction gaussian-m22 --rows control --row-range 1 5 -o maps  # the axes of Misso et al. 2022
 medialab converge --estimator ratio,unbiased-ray-marching -o converge.csv          # error against samples, look-ups, seconds
 medialab profile --estimator ratio --supervoxels 8 --lower 1 --picture line.png    # one line, its controls, its look-ups
+medialab heatmap --family slab --estimator p-series-cmf,unbiased-ray-marching -o slab # densities that get rougher, from clear to opaque
+medialab levels --estimator debiased-ray-marching:levels=0:comb=independent        # variance and cost of corrections, level by level
+medialab running --estimator ratio --extinction step-sine --depth 12.66 --to 3     # weights of walks along a line
+medialab progressive --supervoxels 80 --epsilon 0.2                                # bounds that rise from pass to pass
+medialab power-law --doublings 18                                                  # means whose variance is infinite
 medialab stress -o stress.csv                                                      # all on stiff and extreme lines: ten minutes of processor time
 medialab precision                                                                 # float against double where it matters
 ```
@@ -255,8 +332,11 @@ std::string docsPage(const DocsOptions& o, const StopSignal& stop) {
   out << "\n## Estimators\n";
   for (const std::string_view name : estimatorNames()) printEstimator(out, name);
   printLaws(out);
+  printReciprocals(out);
   const LabTable table = estimateTable(measured(o), stop);
+  const LabTable reciprocals = estimateTable(measuredReciprocals(o), stop);
   if (stop) throw std::runtime_error("stopped: no page is written");
+  printReciprocalMeasurements(out, reciprocals, o);
   printMeasurements(out, table, o);
   printLab(out);
   return out.str();

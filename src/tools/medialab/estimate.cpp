@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::string> columnsOf(const EstimateOptions& o) {
   std::vector<std::string> columns{"estimator", "extinction", "depth", "control"};
-  if (o.showLower) columns.insert(columns.end(), {"lower"});
+  if (o.showLower) columns.insert(columns.end(), {o.problem.lowerDepths.empty() ? "lower" : "lower_depth"});
   if (o.showLaw) columns.insert(columns.end(), {"law"});
   if (o.showPattern) columns.insert(columns.end(), {"pattern"});
   columns.insert(columns.end(),
@@ -54,10 +54,12 @@ LabTable estimateTable(EstimateOptions o, const StopSignal& stop) {
   const std::vector<LabEstimator> estimators = o.selection.select(skipped);
   // Where the exact values are not all those of the exponential law, the rows say whose they are.
   o.showLaw = o.showLaw || std::any_of(estimators.begin(), estimators.end(), [](const LabEstimator& one) {
-                return !std::holds_alternative<ExponentialLaw>(one.law());
+                return one.quantity() == Quantity::Transmittance &&
+                       !std::holds_alternative<ExponentialLaw>(one.law());
               });
   LabTable table(o.lab.command, columnsOf(o));
   for (const auto& s : skipped) table.skip(s.what, s.reason);
+  noteQuantity(table, estimators);
   const std::vector<CanonicalFunction> functions = o.functions.select();
   std::size_t total = 0, done = 0;
   for (const CanonicalFunction& f : functions)
@@ -84,7 +86,7 @@ LabTable estimateTable(EstimateOptions o, const StopSignal& stop) {
           table.markStopped();
           return table;
         }
-        table.add(rowOf(o, estimator, function, choice, problem.transmittance(estimator.law()), stats));
+        table.add(rowOf(o, estimator, function, choice, problem.exact(estimator), stats));
         progress.update(++done, estimator.label() + " on " + function.about().name);
       }
     }

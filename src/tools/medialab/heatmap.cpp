@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "base/diagnostics.h"
+#include "base/hash.h"
 #include "base/parallel.h"
 #include "base/writable.h"
 #include "image/image.h"
@@ -21,21 +23,59 @@ using Measure = Heatmap::Measure;
 constexpr std::uint64_t kTrialsPerLookup = 4;
 constexpr double kRounding = 1e-9;
 
+/// The densities of a map: one for all columns, or a family with one for each.
+class Columns {
+ public:
+  Columns(const HeatmapOptions& o) : o_(o) {
+    if (o.family.empty()) {
+      functions_ = {o.function.select().front()};
+      return;
+    }
+    for (int x = 0; x < o.width; ++x) {
+      auto member = findDensityFamily(o.family, HeatmapAxis{0, 1}.at(x, o.width));
+      if (!member) {
+        throw std::runtime_error("unknown family \"" + o.family + '"' +
+                                 suggestion(o.family, densityFamilyNames()));
+      }
+      functions_.push_back(*std::move(member));
+      most_ = std::max(most_, functions_.back().range().max);
+    }
+  }
+  const CanonicalFunction& at(int x) const {
+    return functions_[functions_.size() > 1 ? static_cast<std::size_t>(x) : 0];
+  }
+  /// The problem of a pixel, but for what they all have in common.
+  ProblemOptions problem(const Heatmap& map, const LabEstimator& estimator, int x, int y) const {
+    ProblemOptions at = o_.problem;
+    if (!map.family.empty()) {
+      at.depths = {map.row(y)};
+      if (o_.isControlShared) at.controls.front() *= most_ / this->at(x).range().max;
+      return at;
+    }
+    at.depths = {depthOfAnswer(estimator, map.column(x))};
+    (o_.rows == HeatmapRows::Efficiency ? at.efficiencies : at.controls) = {map.row(y)};
+    return at;
+  }
+
+ private:
+  const HeatmapOptions& o_;
+  std::vector<CanonicalFunction> functions_;
+  double most_ = 0;  ///< largest density of all
+};
+
 Heatmap::Pixel measurePixel(const HeatmapOptions& o, const CanonicalFunction& function,
-                            const LabEstimator& estimator, double transmittance, double efficiency,
+                            const LabEstimator& estimator, const ProblemOptions& at, std::uint64_t index,
                             TrialJournal& journal, const StopSignal& stop) {
-  ProblemOptions at = o.problem;
-  at.depths = {depthReachedOf(estimator.law(), transmittance)};
-  at.efficiencies = {efficiency};
   const ProblemChoice choice = problemChoices(at, function).front();
   const LabProblem problem = makeProblem(at, function, choice);
   TrialLimit limit{.trials = o.trials};
   if (o.trials == 0) limit = {.trials = kTrialsPerLookup * o.lookups, .lookups = o.lookups};
-  const std::uint64_t seed = rowSeed(o.lab.seed, estimator.label(), function.about().name, choice);
+  std::uint64_t seed = rowSeed(o.lab.seed, estimator.label(), function.about().name, choice);
+  if (!o.family.empty()) seed = hashCombine(seed, index);  // members differ in more than their name
   const TrialStats stats =
       journal.recall(seed, stop.flag(), [&] { return runTrials(estimator, problem, o.plan, seed, limit); });
   Heatmap::Pixel pixel;
-  pixel.exact = problem.transmittance(estimator.law());
+  pixel.exact = problem.exact(estimator);
   pixel.mean = stats.value.mean();
   pixel.meanError = stats.value.meanError();
   pixel.variance = stats.value.variance();
@@ -46,10 +86,21 @@ Heatmap::Pixel measurePixel(const HeatmapOptions& o, const CanonicalFunction& fu
   return pixel;
 }
 
+std::string rowsName(HeatmapRows rows) {
+  return rows == HeatmapRows::Efficiency ? "efficiency" : rows == HeatmapRows::Control ? "control" : "depth";
+}
+/// What rows run over unless a range is given.
+HeatmapAxis rowsOf(const HeatmapOptions& o, const CanonicalFunction& function) {
+  if (!o.family.empty()) return {0, 9.9};
+  return o.rows == HeatmapRows::Efficiency ? HeatmapAxis{0.01, function.about().topEfficiency}
+                                           : HeatmapAxis{1, 2};
+}
+
 LabTable tableOf(const HeatmapOptions& o, const std::string& function, const Heatmap& map) {
-  std::vector<std::string> columns{"estimator",     "extinction",  "x",        "y",
-                                   "transmittance", "efficiency",  "trials",   "exact",
-                                   "mean",          "mean_stderr", "variance", "lookups"};
+  std::vector<std::string> columns{"estimator", "extinction", "x", "y"};
+  columns.insert(columns.end(),
+                 {map.family.empty() ? std::string(nameOf(map.quantity)) : map.family, rowsName(map.rows),
+                  "trials", "exact", "mean", "mean_stderr", "variance", "lookups"});
   if (!o.lab.omitSeconds) columns.emplace_back("seconds_per_estimate");
   columns.emplace_back("inverse_efficiency_lookups");
   if (!o.lab.omitSeconds) columns.emplace_back("inverse_efficiency_seconds");
@@ -65,8 +116,8 @@ LabTable tableOf(const HeatmapOptions& o, const std::string& function, const Hea
                                         function,
                                         static_cast<std::uint64_t>(x),
                                         static_cast<std::uint64_t>(y),
-                                        map.transmittance(x),
-                                        map.efficiency(y),
+                                        map.column(x),
+                                        map.row(y),
                                         p.trials,
                                         p.exact,
                                         p.mean,
@@ -84,6 +135,10 @@ LabTable tableOf(const HeatmapOptions& o, const std::string& function, const Hea
     }
   }
   return table;
+}
+
+const std::string& nameOfDensity(const HeatmapOptions& o) {
+  return o.family.empty() ? o.function.words.front() : o.family;
 }
 
 /// "share of pixels where each estimator is best" as notes.
@@ -111,21 +166,16 @@ void noteShares(LabTable& table, const Heatmap& map) {
   }
 }
 
-/// Name and parameters: "pinknoise correlation=0.5".
-std::string describeLaw(const AnyLaw& law) {
-  std::string text(nameOf(law));
-  for (const ParameterDescription& p : parametersOf(law)) text += ' ' + p.name + '=' + p.value;
-  return text;
-}
-
 /// The estimators of a map, all under one law: a best one among values of different laws would mean nothing.
 /// "all" stands for those of the exponential law unless another is named.
 std::vector<LabEstimator> estimatorsOf(const HeatmapOptions& o, std::vector<LabTable::Skipped>& skipped) {
   EstimatorSelection selection = o.selection;
-  if (selection.isAll() && selection.law.empty()) selection.law = "exponential";
+  const bool isTransmittance =
+      selection.quantity.value_or(Quantity::Transmittance) == Quantity::Transmittance;
+  if (selection.isAll() && selection.law.empty() && isTransmittance) selection.law = "exponential";
   std::vector<LabEstimator> estimators = selection.select(skipped);
   for (const LabEstimator& one : estimators) {
-    const std::string first = describeLaw(estimators.front().law()), law = describeLaw(one.law());
+    const std::string first = describeQuantity(estimators.front()), law = describeQuantity(one);
     if (law == first) continue;
     std::string text = "a map compares estimators of one law: " + estimators.front().label() + " serves ";
     text += first;
@@ -134,6 +184,19 @@ std::vector<LabEstimator> estimatorsOf(const HeatmapOptions& o, std::vector<LabT
     throw std::runtime_error(text);
   }
   return estimators;
+}
+
+/// Throws unless some finite depth has the answer.
+void checkAnswer(const LabEstimator& estimator, double answer) {
+  const bool isTransmittance = estimator.quantity() == Quantity::Transmittance;
+  if (!(answer > 0) || !std::isfinite(answer) || (isTransmittance && answer > 1)) {
+    throw std::runtime_error("--range: expected two numbers above 0" +
+                             std::string(isTransmittance ? " and up to 1" : "") + ", found " +
+                             formatNumber(answer));
+  }
+  if (std::isfinite(depthOfAnswer(estimator, answer))) return;
+  throw std::runtime_error("the law " + describeQuantity(estimator) + " never falls to the transmittance " +
+                           formatNumber(answer));
 }
 
 }  // namespace
@@ -149,13 +212,6 @@ double Heatmap::Pixel::value(Measure measure) const {
       return variance * seconds;
   }
   return kUnknown;
-}
-
-double Heatmap::transmittance(int x) const { return 1 - (0.01 + (width > 1 ? 0.98 * x / (width - 1) : 0)); }
-
-double Heatmap::efficiency(int y) const {
-  constexpr double kBottom = 0.01;
-  return height > 1 ? topEfficiency + (kBottom - topEfficiency) * y / (height - 1) : topEfficiency;
 }
 
 std::size_t Heatmap::best(std::size_t pixel, Measure measure) const {
@@ -185,37 +241,40 @@ Heatmap measureHeatmap(const HeatmapOptions& o, std::vector<LabTable::Skipped>& 
   if (o.width < 1 || o.height < 1) throw std::runtime_error("--resolution: expected at least 1 x 1");
   if (o.trials == 0 && o.lookups < 1) throw std::runtime_error("--lookups: expected at least 1");
   if (o.trials == 1) throw std::runtime_error("--trials: expected at least 2, for a variance");
-  const CanonicalFunction function = o.function.select().front();
-  Heatmap map{
-      o.width, o.height, o.topEfficiency > 0 ? o.topEfficiency : function.about().topEfficiency, {}, {}};
+  const Columns columns(o);
+  Heatmap map{.width = o.width,
+              .height = o.height,
+              .answers = o.answers,
+              .rows = o.family.empty() ? o.rows : HeatmapRows::Depth,
+              .rowRange = o.rowRange.value_or(rowsOf(o, columns.at(0))),
+              .family = o.family};
   const std::vector<LabEstimator> estimators = estimatorsOf(o, skipped);
   if (!estimators.empty()) {
-    const AnyLaw law = estimators.front().law();
-    map.law = describeLaw(law);
-    const double least = map.transmittance(o.width - 1);
-    if (!std::isfinite(depthReachedOf(law, least))) {
-      throw std::runtime_error("the law " + map.law + " never falls to the transmittance " +
-                               formatNumber(least));
+    map.quantity = estimators.front().quantity();
+    map.law = describeQuantity(estimators.front());
+    if (o.family.empty()) {
+      for (const double answer : {o.answers.first, o.answers.last}) checkAnswer(estimators.front(), answer);
     }
   }
   TrialJournal journal(o.lab.resume, o.lab.identity);
   LabProgress progress("medialab heatmap", estimators.size() * static_cast<std::size_t>(o.height),
                        o.lab.quiet);
   for (const LabEstimator& estimator : estimators) {
-    const LabProblem any = makeProblem(o.problem, function, {1, 1, 0});
+    const LabProblem any = makeProblem(o.problem, columns.at(0), {1, 1, 0});
     if (const std::string why = whyNotApplicable(estimator, any.line); !why.empty()) {
       skipped.push_back({estimator.label(), why});
       continue;
     }
     Heatmap::Layer layer{estimator.label(), {}};
-    layer.isUnbiased = estimator.traits().bias == EstimatorTraits::Bias::Unbiased;
+    layer.isUnbiased = estimator.bias() == EstimatorTraits::Bias::Unbiased;
     layer.pixels.resize(static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height));
     for (int y = 0; y < o.height && !stop; ++y) {
       parallelFor(static_cast<std::size_t>(o.width), [&](std::size_t i) {
         const int x = static_cast<int>(i);
         if (stop) return;
         layer.pixels[map.index(x, y)] =
-            measurePixel(o, function, estimator, map.transmittance(x), map.efficiency(y), journal, stop);
+            measurePixel(o, columns.at(x), estimator, columns.problem(map, estimator, x, y), map.index(x, y),
+                         journal, stop);
       });
       progress.update(map.layers.size() * static_cast<std::size_t>(o.height) + static_cast<std::size_t>(y),
                       estimator.label());
@@ -242,10 +301,11 @@ int runHeatmap(const HeatmapOptions& o) {
   const StopSignal stop;
   std::vector<LabTable::Skipped> skipped;
   const Heatmap map = measureHeatmap(o, skipped, stop);
-  LabTable table = tableOf(o, o.function.words.front(), map);
+  LabTable table = tableOf(o, nameOfDensity(o), map);
   for (const auto& s : skipped) table.skip(s.what, s.reason);
   noteShares(table, map);
-  table.note("law of the transmittance: " + map.law);
+  table.note(map.quantity == Quantity::Transmittance ? "law of the transmittance: " + map.law
+                                                     : "quantity: reciprocal, 1 / depth");
   if (stop) table.markStopped();
   if (map.layers.empty()) throw std::runtime_error("nothing could be run");
   if (!prefix.empty()) {
@@ -255,7 +315,7 @@ int runHeatmap(const HeatmapOptions& o) {
                                           {Measure::VarianceLookups, "-variance-lookups.png"},
                                           {Measure::VarianceSeconds, "-variance-seconds.png"}}) {
       if (measure == Measure::VarianceSeconds && o.lab.omitSeconds) continue;
-      writeImage(prefix + suffix, heatmapPicture(map, measure, o.function.words.front()));
+      writeImage(prefix + suffix, heatmapPicture(map, measure, nameOfDensity(o)));
     }
   }
   writeTable(table, lab);

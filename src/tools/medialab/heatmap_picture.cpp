@@ -137,14 +137,19 @@ class Picture {
       }
     }
     canvas_.frame(x0, y0, width, height, kInk);
-    const std::string right = shortNumber(map_.transmittance(map_.width - 1));
-    canvas_.text(x0, y0 + height + 4, shortNumber(map_.transmittance(0)), kInk);
-    canvas_.text(x0 + width / 2 - LabCanvas::textWidth("T") / 2, y0 + height + 4, "T", kInk);
+    const std::string right = shortNumber(map_.column(map_.width - 1));
+    const char* const answer = !map_.family.empty()                       ? "member"
+                               : map_.quantity == Quantity::Transmittance ? "T"
+                                                                          : "1/F";
+    canvas_.text(x0, y0 + height + 4, shortNumber(map_.column(0)), kInk);
+    canvas_.text(x0 + width / 2 - LabCanvas::textWidth(answer) / 2, y0 + height + 4, answer, kInk);
     canvas_.text(x0 + width - LabCanvas::textWidth(right), y0 + height + 4, right, kInk);
-    const std::string top = shortNumber(map_.efficiency(0)),
-                      bottom = shortNumber(map_.efficiency(map_.height - 1));
+    const std::string top = shortNumber(map_.row(0)), bottom = shortNumber(map_.row(map_.height - 1));
+    const char* const rows = map_.rows == HeatmapRows::Efficiency ? "eff"
+                             : map_.rows == HeatmapRows::Control  ? "ctl"
+                                                                  : "tau";
     canvas_.text(x0 - 4 - LabCanvas::textWidth(top), y0, top, kInk);
-    canvas_.text(x0 - 4 - LabCanvas::textWidth("eff"), y0 + height / 2 - 4, "eff", kInk);
+    canvas_.text(x0 - 4 - LabCanvas::textWidth(rows), y0 + height / 2 - 4, rows, kInk);
     canvas_.text(x0 - 4 - LabCanvas::textWidth(bottom), y0 + height - 8, bottom, kInk);
   }
   void bar() {

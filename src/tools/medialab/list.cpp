@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fields/canonical_function.h"
+#include "reciprocal/any_reciprocal.h"
 #include "tools/medialab/estimator.h"
 #include "transmittance/sampling_pattern.h"
 
@@ -42,6 +43,25 @@ Json estimatorJson(std::string_view name) {
           {"parameters", parametersJson(estimator.parameters())}};
 }
 
+Json reciprocalJson(std::string_view name) {
+  const AnyReciprocal estimator = *findReciprocal(name);
+  const ReciprocalTraits t = traitsOf(estimator);
+  return {{"name", name},
+          {"summary", t.summary},
+          {"source", t.source},
+          {"useWhen", t.useWhen},
+          {"bias", nameOf(t.bias)},
+          {"biasNote", t.biasNote},
+          {"domain", t.domain},
+          {"control", nameOf(t.control)},
+          {"needsPositiveDensity", t.needsPositiveDensity},
+          {"finiteVariance", t.finiteVariance},
+          {"varianceNote", t.varianceNote},
+          {"cost", t.cost},
+          {"boundedCost", t.boundedCost},
+          {"parameters", parametersJson(parametersOf(estimator))}};
+}
+
 Json functionJson(std::string_view name) {
   const CanonicalFunction f = *findCanonicalFunction(name);
   const CanonicalFunction::Range range = f.range();
@@ -69,6 +89,10 @@ Json listJson(const std::string& what) {
   if (wants("estimators")) {
     list["estimators"] = Json::array();
     for (const std::string_view name : estimatorNames()) list["estimators"].push_back(estimatorJson(name));
+  }
+  if (wants("reciprocals")) {
+    list["reciprocals"] = Json::array();
+    for (const std::string_view name : reciprocalNames()) list["reciprocals"].push_back(reciprocalJson(name));
   }
   if (wants("functions")) {
     list["functions"] = Json::array();
@@ -108,10 +132,28 @@ void printEstimator(const Json& e) {
   printParameters(e["parameters"]);
 }
 
+void printReciprocal(const Json& e) {
+  std::cout << "  " << text(e["name"]) << '\n'
+            << "      " << text(e["summary"]) << "; " << text(e["source"]) << '\n'
+            << "      use when " << text(e["useWhen"]) << '\n'
+            << "      " << text(e["bias"]);
+  if (!text(e["biasNote"]).empty()) std::cout << " (" << text(e["biasNote"]) << ')';
+  std::cout << " on " << text(e["domain"]) << "; control: " << text(e["control"]) << '\n'
+            << "      variance: " << (e["finiteVariance"].get<bool>() ? "finite" : "may be infinite");
+  if (!text(e["varianceNote"]).empty()) std::cout << ", " << text(e["varianceNote"]);
+  std::cout << "; look-ups: " << text(e["cost"])
+            << (e["boundedCost"].get<bool>() ? ", bounded" : ", unbounded") << '\n';
+  printParameters(e["parameters"]);
+}
+
 void printList(const Json& list) {
   if (list.contains("estimators")) {
     std::cout << "estimators\n";
     for (const Json& e : list["estimators"]) printEstimator(e);
+  }
+  if (list.contains("reciprocals")) {
+    std::cout << "reciprocals\n";
+    for (const Json& e : list["reciprocals"]) printReciprocal(e);
   }
   if (list.contains("functions")) {
     std::cout << "functions\n";

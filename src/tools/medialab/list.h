@@ -6,7 +6,7 @@
 namespace pbrtmedia {
 
 struct ListOptions {
-  std::string what = "all";  ///< estimators, functions, laws, patterns or all
+  std::string what = "all";  ///< estimators, reciprocals, functions, laws, patterns or all
   bool json = false;
 };
 

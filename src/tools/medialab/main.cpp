@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include <CLI/CLI.hpp>
-#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "tools/medialab/command_options.h"
 #include "tools/medialab/converge.h"
 #include "tools/medialab/docs.h"
 #include "tools/medialab/estimate.h"
 #include "tools/medialab/heatmap.h"
+#include "tools/medialab/line_commands.h"
 #include "tools/medialab/list.h"
 #include "tools/medialab/precision.h"
 #include "tools/medialab/profile.h"
@@ -19,122 +21,11 @@
 namespace pbrtmedia {
 namespace {
 
-using Run = std::function<int()>;
-
-constexpr unsigned kMostThreads = 4096;
-/// Beyond, a row would take weeks; far below what counters hold.
-constexpr unsigned long long kMostTrials = 1'000'000'000'000;
-constexpr unsigned kMostSamples = 1u << 24;
-
-/// Of a command that writes a table.
-void addTableOptions(CLI::App* c, LabOptions& o) {
-  c->add_option("-o,--outfile", o.outfile, "file to write, .csv, .json or .txt (standard output)");
-  std::map<std::string, TableFormat> formats;
-  for (const auto& [name, format] : kTableFormats) formats.emplace(name, format);
-  c->add_option("--format", o.format,
-                "csv, json or text (as the file's name ends; without a file text on a terminal, else csv)")
-      ->transform(oneOf(formats))
-      ->type_name("NAME");
-}
-
-/// The words that were typed, told apart by what they are for.
-struct Words {
-  std::string command, identity;
-};
-
-void addLabOptions(CLI::App* c, LabOptions& o, const Words& words) {
-  o.command = words.command;
-  o.identity = words.identity;
-  c->add_option("--seed", o.seed, "of all random numbers (1)")->check(wholeNumber<std::uint64_t>(0, ~0ull));
-  c->add_option("--nthreads,--threads", o.threads, "0: one per processor (0); results do not depend on it")
-      ->check(wholeNumber(0u, kMostThreads))
-      ->type_name("N");
-  c->add_flag("--quiet", o.quiet, "show no progress");
-  c->add_flag("--no-seconds", o.omitSeconds, "leave out measured times, all that differs from run to run");
-}
-
-/// Of a command whose measurements may be kept while they are made.
-void addResume(CLI::App* c, LabOptions& o) {
-  c->add_option("--resume", o.resume,
-                "file that keeps what is measured: the same command goes on where it was stopped or killed");
-}
-
-void addSelection(CLI::App* c, EstimatorSelection& o) {
-  c->add_option("--estimator", o.estimators,
-                "names, names with parameters (ray-marching:stepsize=0.1), or all (all)")
-      ->delimiter(',')
-      ->take_all();
-  c->add_option("--law", o.law, "transmittance law (each estimator's own, mostly exponential)");
-  c->add_option("--param", o.params, "name=value of the law and of every estimator chosen");
-}
-
-void addProblem(CLI::App* c, ProblemOptions& o, bool hasDepths) {
-  if (hasDepths) {
-    c->add_option("--depth", o.depths, "optical depths (1)")
-        ->delimiter(',')
-        ->take_all()
-        ->check(number(NumberRange::atLeast(0)));
-    CLI::Option* control =
-        c->add_option("--control", o.controls, "upper control / largest density (1); below 1 it is no bound")
-            ->delimiter(',')
-            ->take_all()
-            ->check(number(NumberRange::above(0)));
-    c->add_option("--efficiency", o.efficiencies, "instead of --control: depth / depth of the control")
-        ->delimiter(',')
-        ->take_all()
-        ->check(number(NumberRange::above(0)))
-        ->excludes(control);
-  }
-  c->add_option("--lower", o.lowers, "lower control / smallest density (0: none)")
-      ->delimiter(',')
-      ->take_all()
-      ->check(number(NumberRange::atLeast(0)));
-  c->add_option("--supervoxels", o.superVoxels, "intervals with controls of their own (1)")
-      ->check(wholeNumber(1u, ProblemOptions::kMostSuperVoxels));
-  c->add_option("--length", o.length, "of the segment (the width of the function, mostly 1)")
-      ->check(number(NumberRange::above(0)));
-  c->add_option("--offset", o.offset, "of the segment's start (0)")->check(number(NumberRange::any()));
-  c->add_flag("--paper-depth", o.isPaperDepth,
-              "a depth is the papers' factor of the formula, not the true depth; they differ for cosine");
-  c->add_flag("--no-means", o.noMeans, "intervals do not know their mean density");
-}
-
-void addVolumes(CLI::App* c, FunctionSelection& o) {
-  c->add_option("--ray", o.ray, "through an .nvdb file, in its world space: ox oy oz dx dy dz")
-      ->expected(6)
-      ->check(number(NumberRange::any()));
-  c->add_option("--grid", o.grid, "of an .nvdb file with several: name, number or beginning of a name");
-}
-
-void addFunctions(CLI::App* c, FunctionSelection& o, const std::string& fallback) {
-  c->add_option("--extinction", o.words,
-                "names of functions or all, tables x,density (.csv), volumes (.nvdb) " + fallback)
-      ->delimiter(',')
-      ->take_all();
-  addVolumes(c, o);
-}
-
-void addFunction(CLI::App* c, FunctionSelection& o) {
-  c->add_option("--extinction", o.words, "function, table x,density (.csv) or volume (.nvdb) (cosine)")
-      ->expected(1);
-  addVolumes(c, o);
-}
-
-void addPattern(CLI::App* c, PatternKind& pattern) {
-  std::map<std::string, PatternKind> names;
-  for (std::size_t i = 0; i < kPatternNames.size(); ++i) {
-    names[std::string(kPatternNames[i])] = static_cast<PatternKind>(i);
-  }
-  c->add_option("--pattern", pattern, "of the random numbers of the estimates in a trial (independent)")
-      ->transform(oneOf(names))
-      ->type_name("NAME");
-}
-
 void addList(CLI::App& app, ListOptions& o, Run& run) {
   CLI::App* c =
       app.add_subcommand("list", "List estimators with traits and parameters, functions, laws, patterns");
-  c->add_option("what", o.what, "estimators, functions, laws, patterns or all (all)")
-      ->transform(oneOf({"estimators", "functions", "laws", "patterns", "all"}));
+  c->add_option("what", o.what, "estimators, reciprocals, functions, laws, patterns or all (all)")
+      ->transform(oneOf({"estimators", "reciprocals", "functions", "laws", "patterns", "all"}));
   const std::map<std::string, bool> formats{{"text", false}, {"json", true}};
   c->add_option("--format", o.json, "text (default) or json")->transform(oneOf(formats))->type_name("NAME");
   c->callback([&o, &run] { run = [&o] { return runList(o); }; });
@@ -150,6 +41,7 @@ void addEstimate(CLI::App& app, EstimateOptions& o, const Words& words, Run& run
   addTableOptions(c, o.lab);
   addResume(c, o.lab);
   addSelection(c, o.selection);
+  addQuantity(c, o.selection);
   addFunctions(c, o.functions, "(all)");
   addProblem(c, o.problem, true);
   addPattern(c, o.plan.pattern);
@@ -159,16 +51,22 @@ void addEstimate(CLI::App& app, EstimateOptions& o, const Words& words, Run& run
   c->callback([c, &o, &run] {
     o.showLaw = c->count("--law") > 0;
     o.showPattern = c->count("--pattern") > 0;
-    o.showLower = c->count("--lower") > 0;
+    o.showLower = c->count("--lower") + c->count("--lower-depth") > 0;
     run = [&o] { return runEstimate(o); };
   });
 }
 
-void addHeatmap(CLI::App& app, HeatmapOptions& o, const Words& words, Run& run) {
+/// What the words for axes are read into.
+struct HeatmapWords : HeatmapOptions {
+  std::vector<double> answerRange, rowEnds;
+};
+
+void addHeatmap(CLI::App& app, HeatmapWords& o, const Words& words, Run& run) {
   CLI::App* c = app.add_subcommand("heatmap", "Map variance and cost over transmittance and control");
   c->footer(
       "Transmittance, under the law, runs from 0.99 at the left to 0.01 at the right, depth / depth of\n"
-      "the control from 0.01 at the bottom to the function's largest at the top. With --outfile P writes\n"
+      "the control from 0.01 at the bottom to the function's largest at the top. --rows control puts the\n"
+      "control over the largest density there, from 1 to 2. With --outfile P writes\n"
       "P.csv (or P.json), P.exr, P-variance.png, P-variance-lookups.png and P-variance-seconds.png. The\n"
       "best is chosen among the unbiased estimators, which must serve one law; all: those of the\n"
       "exponential one, unless --law tells another.");
@@ -176,6 +74,7 @@ void addHeatmap(CLI::App& app, HeatmapOptions& o, const Words& words, Run& run) 
   addTableOptions(c, o.lab);
   addResume(c, o.lab);
   addSelection(c, o.selection);
+  addQuantity(c, o.selection);
   addFunction(c, o.function);
   addProblem(c, o.problem, false);
   addPattern(c, o.plan.pattern);
@@ -183,8 +82,21 @@ void addHeatmap(CLI::App& app, HeatmapOptions& o, const Words& words, Run& run) 
       ->check(wholeNumber(1u, kMostSamples));
   c->add_option("--width", o.width, "pixels (64)")->check(wholeNumber(1, 4096));
   c->add_option("--height", o.height, "pixels (64)")->check(wholeNumber(1, 4096));
-  c->add_option("--top-efficiency", o.topEfficiency,
-                "depth / depth of the control at the top (the function's)")
+  c->add_option("--range", o.answerRange,
+                "transmittance, or reciprocal, at the left and at the right (0.99 0.01)")
+      ->expected(2)
+      ->check(number(NumberRange::above(0)));
+  const std::map<std::string, HeatmapRows> rows{{"efficiency", HeatmapRows::Efficiency},
+                                                {"control", HeatmapRows::Control}};
+  c->add_option("--rows", o.rows,
+                "what rows run over: efficiency (depth / depth of the control), or control (over the largest "
+                "density) (efficiency)")
+      ->transform(oneOf(rows))
+      ->type_name("NAME");
+  c->add_option(
+       "--row-range", o.rowEnds,
+       "of the rows, at the bottom and at the top (efficiency: 0.01 and the function's; control: 1 2)")
+      ->expected(2)
       ->check(number(NumberRange::above(0)));
   CLI::Option* lookups =
       c->add_option("--lookups", o.lookups,
@@ -193,7 +105,24 @@ void addHeatmap(CLI::App& app, HeatmapOptions& o, const Words& words, Run& run) 
   c->add_option("--trials", o.trials, "of a pixel and estimator, instead of a budget")
       ->check(wholeNumber(2ull, kMostTrials))
       ->excludes(lookups);
-  c->callback([&o, &run] { run = [&o] { return runHeatmap(o); }; });
+  CLI::Option* family =
+      c->add_option(
+           "--family", o.family,
+           "a density for each column in place of --extinction, and depths for rows: slab, rougher to the "
+           "right (Kettunen et al. 2021, figures 14 and 15)")
+          ->type_name("NAME");
+  c->add_option("--control", o.problem.controls, "with --family: upper control / largest density (1)")
+      ->expected(1)
+      ->check(number(NumberRange::above(0)))
+      ->needs(family);
+  c->add_flag("--shared-control", o.isControlShared,
+              "with --family: one control for all columns, that of the densest")
+      ->needs(family);
+  c->callback([&o, &run] {
+    if (!o.answerRange.empty()) o.answers = {o.answerRange[0], o.answerRange[1]};
+    if (!o.rowEnds.empty()) o.rowRange = HeatmapAxis{o.rowEnds[0], o.rowEnds[1]};
+    run = [&o] { return runHeatmap(o); };
+  });
 }
 
 void addConverge(CLI::App& app, ConvergeOptions& o, const Words& words, Run& run) {
@@ -204,6 +133,7 @@ void addConverge(CLI::App& app, ConvergeOptions& o, const Words& words, Run& run
   addTableOptions(c, o.lab);
   addResume(c, o.lab);
   addSelection(c, o.selection);
+  addQuantity(c, o.selection);
   addFunctions(c, o.functions, "(cosine)");
   addProblem(c, o.problem, true);
   addPattern(c, o.pattern);
@@ -218,6 +148,7 @@ void addProfile(CLI::App& app, ProfileOptions& o, const Words& words, Run& run) 
   addLabOptions(c, o.lab, words);
   addTableOptions(c, o.lab);
   addSelection(c, o.selection);
+  addQuantity(c, o.selection);
   addFunction(c, o.function);
   addProblem(c, o.problem, true);
   c->add_option("--points", o.points, "where the field is shown (256)")->check(wholeNumber(2u, 1000000u));
@@ -267,9 +198,10 @@ int medialabMain(int argc, char** argv) {
   CLI::App app{"Measures transmittance estimators on lines whose answers are known", "medialab"};
   app.require_subcommand(1);
   const Words words{commandText(argc, argv), identityText(argc, argv)};
+  LineCommands lines;
   ListOptions list;
   EstimateOptions estimate;
-  HeatmapOptions heatmap;
+  HeatmapWords heatmap;
   ConvergeOptions converge;
   ProfileOptions profile;
   StressOptions stress;
@@ -281,6 +213,7 @@ int medialabMain(int argc, char** argv) {
   addHeatmap(app, heatmap, words, run);
   addConverge(app, converge, words, run);
   addProfile(app, profile, words, run);
+  lines.addTo(app, words, run);
   addStress(app, stress, words, run);
   addPrecision(app, precision, words, run);
   addDocs(app, docs, words, run);

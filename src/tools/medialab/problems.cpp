@@ -37,6 +37,9 @@ void ProblemOptions::check() const {
   for (const double v : lowers) {
     require(v >= 0 && std::isfinite(v), "--lower: expected finite numbers, at least 0", v);
   }
+  for (const double v : lowerDepths) {
+    require(v >= 0 && std::isfinite(v), "--lower-depth: expected finite numbers, at least 0", v);
+  }
   require(length >= 0 && std::isfinite(length), "--length: expected a finite number above 0", length);
   require(std::isfinite(offset), "--offset: expected a finite number", offset);
   require(superVoxels >= 1 && superVoxels <= kMostSuperVoxels,
@@ -59,7 +62,8 @@ std::vector<ProblemChoice> problemChoices(const ProblemOptions& options, const C
       }
     }
     for (const double control : controls) {
-      for (const double lower : options.lowers) choices.push_back({depth, control, lower});
+      for (const double lower : options.lowerDepths.empty() ? options.lowers : options.lowerDepths)
+        choices.push_back({depth, control, lower});
     }
   }
   return choices;
@@ -67,13 +71,19 @@ std::vector<ProblemChoice> problemChoices(const ProblemOptions& options, const C
 
 LabProblem makeProblem(const ProblemOptions& options, const CanonicalFunction& function,
                        const ProblemChoice& choice) {
-  const CanonicalLine line(function, {.length = options.length > 0 ? options.length : function.width(),
-                                      .offset = options.offset,
-                                      .control = choice.control,
-                                      .lower = choice.lower,
-                                      .superVoxels = options.superVoxels,
-                                      .hasMeans = !options.noMeans});
-  return {line, trueDepth(options, function, choice.depth) / line.integral()};
+  CanonicalLine::Setup setup{.length = options.length > 0 ? options.length : function.width(),
+                             .offset = options.offset,
+                             .control = choice.control,
+                             .lower = choice.lower,
+                             .superVoxels = options.superVoxels,
+                             .hasMeans = !options.noMeans};
+  const double sigmaT =
+      trueDepth(options, function, choice.depth) / CanonicalLine(function, setup).integral();
+  if (!options.lowerDepths.empty()) {
+    setup.lower = 0;
+    setup.lowerDensity = sigmaT > 0 ? choice.lower / (sigmaT * setup.length) : 0;
+  }
+  return {CanonicalLine(function, setup), sigmaT};
 }
 
 std::uint64_t rowSeed(std::uint64_t seed, std::string_view estimator, std::string_view function,

@@ -19,8 +19,10 @@ struct ProblemOptions {
   std::vector<double>
       efficiencies{};             ///< in place of controls: depth as given / optical depth of the control
   std::vector<double> lowers{0};  ///< lower bound / smallest density, >= 0
-  unsigned superVoxels = 1;       ///< at most kMostSuperVoxels
-  double length = 0;              ///< of the segment; 0: the width of the function's domain
+  /// In place of lowers: optical depths of a constant lower control, also above the function.
+  std::vector<double> lowerDepths{};
+  unsigned superVoxels = 1;  ///< at most kMostSuperVoxels
+  double length = 0;         ///< of the segment; 0: the width of the function's domain
   double offset = 0;
   /// Depths are the numbers that the papers put before their formulas, although the cosine of Georgiev et al.
   /// integrates to 1.010572 times that. Otherwise a depth is the true optical depth.
@@ -35,7 +37,7 @@ struct ProblemOptions {
 struct ProblemChoice {
   double depth;    ///< as given
   double control;  ///< upper bound / largest density
-  double lower;
+  double lower;    ///< lower bound / smallest density, or optical depth of the lower control
 };
 std::vector<ProblemChoice> problemChoices(const ProblemOptions& options, const CanonicalFunction& function);
 LabProblem makeProblem(const ProblemOptions& options, const CanonicalFunction& function,

@@ -29,6 +29,7 @@ Profile measure(const ProfileOptions& o, const CanonicalFunction& function, LabT
   std::vector<LabTable::Skipped> skipped;
   const std::vector<LabEstimator> estimators = o.selection.select(skipped);
   for (const auto& s : skipped) table.skip(s.what, s.reason);
+  noteQuantity(table, estimators);
   const ProblemChoice choice = firstChoice(o, function);
   Profile profile{makeProblem(o.problem, function, choice), {}, {}};
   for (const LabEstimator& e : estimators) {
@@ -40,7 +41,7 @@ Profile measure(const ProfileOptions& o, const CanonicalFunction& function, LabT
     profile.estimates.push_back(
         recordEstimate(e, profile.problem, rowSeed(o.lab.seed, e.label(), function.about().name, choice)));
     table.note(e.label() + ": estimate " + formatNumber(profile.estimates.back().value) + " of " +
-               formatNumber(profile.problem.transmittance(e.law())) + " from " +
+               formatNumber(profile.problem.exact(e)) + " from " +
                std::to_string(profile.estimates.back().points.size()) + " look-ups");
   }
   return profile;

@@ -60,10 +60,19 @@ std::vector<std::string_view> namesOf(const std::vector<ParameterDescription>& p
   return names;
 }
 
+/// Of all quantities.
+std::vector<std::string_view> everyName() {
+  std::vector<std::string_view> names;
+  for (const std::string_view quantity : quantityNames()) {
+    for (const std::string_view name : estimatorNamesOf(*findQuantity(quantity))) names.push_back(name);
+  }
+  return names;
+}
+
 /// The estimators that have a parameter of this name.
 std::vector<std::string_view> ownersOf(std::string_view parameter) {
   std::vector<std::string_view> owners;
-  for (const std::string_view name : estimatorNames()) {
+  for (const std::string_view name : everyName()) {
     const auto parameters = LabEstimator(name).parameters();
     if (std::any_of(parameters.begin(), parameters.end(),
                     [&](const ParameterDescription& p) { return p.name == parameter; })) {
@@ -129,12 +138,28 @@ AnyLaw parseLaw(const std::string& name) {
 /// All parameter names of all estimators.
 std::vector<std::string> everyParameter() {
   std::vector<std::string> all;
-  for (const std::string_view name : estimatorNames()) {
+  for (const std::string_view name : everyName()) {
     for (const ParameterDescription& p : LabEstimator(name).parameters()) all.push_back(p.name);
   }
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
+}
+
+/// Values of different quantities have nothing to do with each other.
+void requireOneQuantity(const std::vector<LabEstimator>& chosen, const std::optional<Quantity>& wanted) {
+  for (const LabEstimator& one : chosen) {
+    const std::string own(nameOf(one.quantity()));
+    if (wanted && one.quantity() != *wanted) {
+      throw std::runtime_error(one.label() + " estimates the " + own + ", found --quantity " +
+                               std::string(nameOf(*wanted)));
+    }
+    if (one.quantity() != chosen.front().quantity()) {
+      throw std::runtime_error("estimators of different quantities: " + chosen.front().label() +
+                               " estimates the " + std::string(nameOf(chosen.front().quantity())) + ", " +
+                               one.label() + " the " + own);
+    }
+  }
 }
 
 }  // namespace
@@ -148,12 +173,13 @@ std::vector<LabEstimator> EstimatorSelection::select(std::vector<LabTable::Skipp
   std::vector<LabEstimator> chosen;
   if (isAll) {
     if (estimators.size() > 1) throw std::runtime_error("\"all\" stands for every estimator: name no other");
-    for (const std::string_view name : estimatorNames()) {
+    for (const std::string_view name : estimatorNamesOf(quantity.value_or(Quantity::Transmittance))) {
       chosen.emplace_back(name);
     }
   } else {
     for (const std::string& word : estimators) chosen.push_back(parseEstimator(word));
   }
+  requireOneQuantity(chosen, quantity);
   std::optional<AnyLaw> chosenLaw;
   if (!law.empty()) chosenLaw = parseLaw(law);
   for (const std::string& text : params) {
@@ -174,6 +200,10 @@ std::vector<LabEstimator> EstimatorSelection::select(std::vector<LabTable::Skipp
                                suggestion(assignment.name, views));
     }
   }
+  if (chosenLaw && !chosen.empty() && chosen.front().quantity() != Quantity::Transmittance) {
+    throw std::runtime_error("a law turns depth into transmittance: --law " + law +
+                             " has nothing to say of the " + std::string(nameOf(chosen.front().quantity())));
+  }
   if (chosenLaw) {
     std::erase_if(chosen, [&](LabEstimator& one) {
       if (one.setLaw(*chosenLaw)) return false;
@@ -184,6 +214,11 @@ std::vector<LabEstimator> EstimatorSelection::select(std::vector<LabTable::Skipp
     });
   }
   return chosen;
+}
+
+void noteQuantity(LabTable& table, const std::vector<LabEstimator>& estimators) {
+  if (estimators.empty() || estimators.front().quantity() == Quantity::Transmittance) return;
+  table.note("quantity: " + std::string(nameOf(estimators.front().quantity())) + ", 1 / depth");
 }
 
 std::vector<CanonicalFunction> FunctionSelection::select() const {

@@ -19,15 +19,21 @@ namespace pbrtmedia {
 struct EstimatorSelection {
   /// Names, names with parameters of their own ("ray-marching:stepsize=0.1"), or "all".
   std::vector<std::string> estimators{"all"};
-  std::string law;                  ///< empty: each estimator's own
-  std::vector<std::string> params;  ///< "name=value" for the law and for every estimator chosen
+  /// Whose estimators "all" stands for; named ones must be of it. Nothing: that of the named ones, and the
+  /// transmittance for "all".
+  std::optional<Quantity> quantity = {};
+  std::string law = {};                  ///< empty: each estimator's own
+  std::vector<std::string> params = {};  ///< "name=value" for the law and for every estimator chosen
 
   bool isAll() const;
   /// The estimators in order, labelled as they were written. One that cannot serve the law is an error if it
   /// was named, and told to `skipped` if it came with "all". A parameter must be known to the law or to each
-  /// estimator named; with "all", to one at least.
+  /// estimator named; with "all", to one at least. All are of one quantity.
   std::vector<LabEstimator> select(std::vector<LabTable::Skipped>& skipped) const;
 };
+
+/// Tells in a table what its estimators estimate, unless that is the transmittance.
+void noteQuantity(LabTable& table, const std::vector<LabEstimator>& estimators);
 
 /// The densities that a command asks for.
 struct FunctionSelection {

@@ -71,7 +71,7 @@ Cell cellOf(const LabEstimator& estimator, const StressCase& one, const Budget& 
   const double integral = line.integral();
   const double sigmaT = integral > 0 ? one.depth / integral : one.sigmaOfNothing;
   Cell cell{&estimator, &one, {line, sigmaT}, {}, ""};
-  cell.setting = {.exact = cell.problem.transmittance(estimator.law()),
+  cell.setting = {.exact = cell.problem.exact(estimator),
                   .depth = cell.problem.depth(),
                   .controlDepth = cell.problem.controlDepth(),
                   .control = one.setup.control,
@@ -159,7 +159,9 @@ StressVerdict skippedVerdict(const std::string& reason) {
 LabTable stressTable(const StressOptions& o, const StopSignal& stop) {
   LabTable table = emptyTable(o);
   std::vector<LabTable::Skipped> skipped;
-  const std::vector<LabEstimator> estimators = o.selection.select(skipped);
+  EstimatorSelection selection = o.selection;
+  selection.quantity = Quantity::Transmittance;  // whose stiff lines these are
+  const std::vector<LabEstimator> estimators = selection.select(skipped);
   for (const auto& s : skipped) table.skip(s.what, s.reason);
   const std::vector<StressCase> cases = selectCases(o);
   const Budget& budget = o.isQuick ? kQuick : kFull;

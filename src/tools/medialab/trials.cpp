@@ -3,6 +3,7 @@
 
 #include <ctime>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/hash.h"
@@ -31,6 +32,15 @@ static_assert(DensityLine<PlainLine> && !PiecewiseCubicLine<PlainLine>);
 template <class Estimator>
 constexpr bool kNeedsPieces =
     !std::is_invocable_v<const Estimator&, const PlainLine&, const Channels<1>&, SampleStream&>;
+
+/// Calls `f` with the concrete estimator, of either quantity.
+template <class F>
+decltype(auto) visitHeld(F&& f, const LabEstimator& estimator) {
+  if (const AnyReciprocal* const reciprocal = std::get_if<AnyReciprocal>(&estimator.held())) {
+    return std::visit(std::forward<F>(f), *reciprocal);
+  }
+  return visitEstimator(std::forward<F>(f), std::get<AnyEstimator>(estimator.held()));
+}
 
 double threadSeconds() {
   timespec time{};
@@ -119,8 +129,7 @@ void TrialStats::add(const TrialStats& o) {
 }
 
 std::string whyNotApplicable(const LabEstimator& estimator, const CanonicalLine& line) {
-  const bool needsPieces =
-      visitEstimator([]<class E>(const E&) { return kNeedsPieces<E>; }, estimator.held());
+  const bool needsPieces = visitHeld([]<class E>(const E&) { return kNeedsPieces<E>; }, estimator);
   if (needsPieces && !line.isPiecewiseCubic()) {
     return "needs a density that is a cubic between known points, which " + line.function().about().name +
            " is not";
@@ -130,10 +139,10 @@ std::string whyNotApplicable(const LabEstimator& estimator, const CanonicalLine&
 
 TrialStats runTrials(const LabEstimator& estimator, const LabProblem& problem, const TrialPlan& plan,
                      std::uint64_t seed, const TrialLimit& limit) {
-  const double expected = problem.transmittance(estimator.law());
-  return visitEstimator(
+  const double expected = problem.exact(estimator);
+  return visitHeld(
       [&](const auto& held) { return TrialRunner(problem, plan, seed).run(held, limit, expected); },
-      estimator.held());
+      estimator);
 }
 
 TrialStats runTrialsInParallel(const LabEstimator& estimator, const LabProblem& problem,
@@ -158,9 +167,8 @@ RecordedEstimate recordEstimate(const LabEstimator& estimator, const LabProblem&
   line.record(&recorded.points);
   Rng rng(seed);
   SampleStream stream(rng);
-  recorded.value = visitEstimator(
-      [&](const auto& held) { return held(line, Channels<1>{problem.sigmaT}, stream).value[0]; },
-      estimator.held());
+  recorded.value = visitHeld(
+      [&](const auto& held) { return held(line, Channels<1>{problem.sigmaT}, stream).value[0]; }, estimator);
   return recorded;
 }
 

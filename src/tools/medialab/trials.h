@@ -53,7 +53,8 @@ struct LabProblem {
 
   double depth() const { return sigmaT * line.integral(); }
   double controlDepth() const { return sigmaT * line.upperIntegral(); }
-  double transmittance(const AnyLaw& law) const { return transmittanceOf(law, depth()); }
+  /// What the estimator's mean should be.
+  double exact(const LabEstimator& estimator) const { return answerAt(estimator, depth()); }
 };
 
 /// Why the estimator has no answer on this line; empty when it has.
