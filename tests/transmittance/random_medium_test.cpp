@@ -114,7 +114,8 @@ TEST(RandomMedium, SingleParticlesHaveTheirLocalWeights) {
       const double w =
           simpson([&](double z) { return localWeight(particle, albedo, analytic(z), rate); }, 0, kLength);
       const Moments m = measure(
-          RandomMedium{.explorers = 0, .samplingExtinction = rate, .particle = particle, .particleAlbedo = albedo},
+          RandomMedium{
+              .explorers = 0, .samplingExtinction = rate, .particle = particle, .particleAlbedo = albedo},
           centralRay(), 1, 40000, kSeed);
       const std::string what =
           "particle " + std::to_string(static_cast<int>(particle)) + ", rate " + std::to_string(rate);
