@@ -78,7 +78,7 @@ class DifferenceIntegrator::Passes {
         const SceneFamily::Member member = family_.at(term.value);
         films_.push_back({&member.film, term.factor});
         reports.push_back(reportOf(renderMember(member, pass), reports.empty()));
-        if (loop_.shouldStop() && !reports.back().complete) return leftInside();
+        if (!reports.back().complete) return leftInside();
       }
     } catch (const Interrupted&) {  // while a scene was built
       return leftInside();
