@@ -3,7 +3,6 @@
 
 NOT_THERE = {
     "georgiev-2019-01": "it needs a scene of our own like the paper's chess game, whose models are not public",
-    "georgiev-2019-09": "it needs a dense cloud in a glass sphere of our own, the paper's volume is not in the repository",
     "kettunen-2021-01": "it needs our own smoke in glass, measured only on paths of two transmissions in a row, which no integrator tells apart",
     "kettunen-2021-11": "it needs four volumes of our own (plume, box, cloud, glass); the plume alone is there, see figure 16",
     "szirmay-kalos-2017-11": "light samples driven by attenuation, source and scattering are not in the renderer yet",
@@ -11,5 +10,4 @@ NOT_THERE = {
     "misso-2022-10": "debiased photon mapping is not in the renderer yet",
     "misso-2022-11": "debiased photon mapping is not in the renderer yet",
     "misso-2022-12": "debiased photon mapping is not in the renderer yet",
-    "misso-2022-13": "reciprocal estimation is not in the lab yet, and specular manifold sampling not in the renderer",
 }
