@@ -170,10 +170,10 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
     const LayerSet layers = chooseLayers(film.layers, *made.integrator, diagnostics);
     builtAt(film.layers.at, film.layers.context, [&] { made.film->setLayers(layers); });
     const std::vector<Medium*>& media = made.scene->media();
-    if (integrator->rendersMedia &&
-        std::any_of(media.begin(), media.end(), [](const Medium* m) { return m->mayBeNegative(); })) {
-      made.film->keepNegatives();
-    }
+    const bool hasNegativeMedia =
+        integrator->rendersMedia &&
+        std::any_of(media.begin(), media.end(), [](const Medium* m) { return m->mayBeNegative(); });
+    if (hasNegativeMedia || integrator->hasNegativeSamples) made.film->keepNegatives();
   } catch (const SceneError& e) {
     diagnostics.add(e);
   }

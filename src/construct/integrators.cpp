@@ -36,6 +36,8 @@ constexpr int kMaxOcclusionSamples = 1 << 20;
 constexpr int kMaxMltDepth = 255, kMaxBootstrapSamples = 1 << 20, kMaxChains = 1 << 20;
 /// The part of iterations and mutations that --quick takes.
 constexpr int kQuick = 16;
+/// Light paths of an iteration, with their photons some gigabytes.
+constexpr int kMaxPhotons = 1 << 25;
 
 /// `fallback`: number of the default.
 std::string_view readLightSampleStrategy(ParamReader& in, std::size_t fallback) {
@@ -147,13 +149,47 @@ void checkMediaForPhotons(const Scene& scene, const CameraMedium& camera, const 
   }
 }
 
+/// "photonsperiteration": nothing for 0 and less. All of them are held in memory.
+std::optional<std::int64_t> readPhotons(ParamReader& in) {
+  const int asked = in.findInt("photonsperiteration", -1);
+  if (asked <= 0) return std::nullopt;
+  if (asked > kMaxPhotons) {
+    tolerate(in, ParamKind::Integer, "photonsperiteration",
+             "found " + std::to_string(asked) + "; as photons are held in memory, an iteration has at most " +
+                 std::to_string(kMaxPhotons) + ", and the image more noise: let it have more iterations");
+  }
+  return std::min(asked, kMaxPhotons);
+}
+
+/// What is done about the bias of kernels, and their shape.
+void readDebiasing(ParamReader& in, SppmParams& p) {
+  constexpr std::array<std::string_view, 4> kDebias = {"none", "single", "progressive",
+                                                       "progressive-unbiased"};
+  KernelSchedule::Params& schedule = p.schedule;
+  schedule.debias = findOwnEnum(in, "debias", kDebias, schedule.debias);
+  schedule.alpha = double{in.findFloat("alpha", KernelSchedule::kAlpha, Range::open(0, 1))};
+  schedule.c = double{in.findFloat("c", KernelSchedule::kC, Range::positive())};
+  for (const std::string_view name : {"alpha", "c"}) {
+    const bool isUsed =
+        schedule.debias != Debias::None && (name == "alpha" || schedule.debias != Debias::Progressive);
+    if (isUsed || !in.has(ParamKind::Float, name)) continue;
+    in.diagnostics().warning(in.locationOf(ParamKind::Float, name),
+                             in.context() + ": \"" + std::string(name) +
+                                 "\" has no effect with \"debias\" \"" +
+                                 std::string(kDebias[static_cast<std::size_t>(schedule.debias)]) + '"');
+  }
+  constexpr std::array<std::string_view, 4> kKernels = {"uniform", "cone", "quadratic", "quartic"};
+  p.kernel = findOwnEnum(in, "kernel", kKernels,
+                         schedule.debias == Debias::None ? KernelShape::Uniform : KernelShape::Cone);
+}
+
 IntegratorPlan readSppm(ParamReader& in, const ConstructOptions& options) {
   SppmParams p;
   p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   const std::int64_t iterations = readIterations(in, options);
-  const int photons = in.findInt("photonsperiteration", -1);
-  if (photons > 0) p.photonsPerIteration = photons;
+  p.photonsPerIteration = readPhotons(in);
   p.radius = in.findFloat("radius", p.radius, Range::positive());
+  readDebiasing(in, p);
   if (in.has(ParamKind::Integer, "imagewritefrequency")) {
     in.diagnostics().warning(
         in.locationOf(ParamKind::Integer, "imagewritefrequency"),
@@ -175,7 +211,12 @@ IntegratorPlan readSppm(ParamReader& in, const ConstructOptions& options) {
     return std::make_unique<SppmIntegrator>(scene, p, std::move(selector), std::move(photonSelector),
                                             std::move(cameraMedium));
   };
-  return {.make = make, .rendersMedia = true, .samplesPerPixel = iterations, .tracesFromLights = true};
+  const Debias debias = p.schedule.debias;
+  return {.make = make,
+          .rendersMedia = true,
+          .samplesPerPixel = iterations,
+          .tracesFromLights = true,
+          .hasNegativeSamples = debias == Debias::Single || debias == Debias::ProgressiveUnbiased};
 }
 
 IntegratorPlan readBdpt(ParamReader& in, const ConstructOptions&) {

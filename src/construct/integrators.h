@@ -23,7 +23,8 @@ struct IntegratorPlan {
   bool rendersSubsurface = false;                 ///< asks for Material::bssrdf
   std::optional<std::int64_t> samplesPerPixel{};  ///< of an integrator that has no use for those of Sampler
   bool tracesFromLights = false;                  ///< needs Scene::prepareEmission
-  bool weighsBothEnds = false;  ///< paths from lights and from the camera by their densities
+  bool weighsBothEnds = false;      ///< paths from lights and from the camera by their densities
+  bool hasNegativeSamples = false;  ///< without which the image would be biased
 };
 
 /// Reads Integrator. Nothing for an unknown type.

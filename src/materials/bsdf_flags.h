@@ -18,6 +18,7 @@ enum class BsdfFlags : std::uint8_t {
   /// (Material::bssrdf). Has no part in matching.
   Subsurface = 32,
   All = 31,
+  AllDiffuse = 7,
   AllButSpecular = 15
 };
 constexpr BsdfFlags operator|(BsdfFlags a, BsdfFlags b) {

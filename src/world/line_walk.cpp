@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/interruption.h"
 #include "shapes/shape.h"
 #include "world/hit_coordinates.h"
 
@@ -56,6 +57,7 @@ bool LineWalk::holdsOrigin(const SceneHit& hit) const {
 
 bool LineWalk::fetch(std::uint64_t& queries) {
   while (!ended_) {
+    leaveIfAbandoned();  // the loops of all that walk along lines
     const std::optional<SceneHit> hit = scene_.closest(ray_, tMin_, exclusions_, queries);
     if (!hit) {
       ended_ = true;

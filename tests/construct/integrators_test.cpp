@@ -95,6 +95,43 @@ TEST(ConstructIntegrator, MltHasItsParameters) {
   EXPECT_TRUE(with(mlt).isSilent()) << with(mlt).messages();
 }
 
+TEST(ConstructIntegrator, SppmIsDebiasedInSeveralWays) {
+  const std::string sppm = "Integrator \"sppm\" \"integer iterations\" 4 \"float radius\" 0.4";
+  const auto debias = [&](const char* kind) { return sppm + " \"string debias\" \"" + kind + '"'; };
+  const std::string single = debias("single"), progressive = debias("progressive"),
+                    both = debias("progressive-unbiased");
+  expectEffects({{sppm, single},
+                 {sppm, progressive},
+                 {single, progressive},
+                 {single, both},
+                 {progressive, both},
+                 {single, single + " \"float alpha\" 0.5"},
+                 {single, single + " \"float c\" 0.499"},
+                 {progressive, progressive + " \"float alpha\" 0.5"},
+                 {sppm, sppm + " \"string kernel\" \"cone\""},
+                 {single, single + " \"string kernel\" \"uniform\""},
+                 {single, single + " \"string kernel\" \"quadratic\""},
+                 {single, single + " \"string kernel\" \"quartic\""}},
+                with, rendered);
+  expectSame({{sppm, debias("none")},
+              {sppm, sppm + " \"string kernel\" \"uniform\""},
+              {single, single + " \"string kernel\" \"cone\" \"float alpha\" 0.66666667 \"float c\" 1.001"}},
+             with, rendered);
+  EXPECT_TRUE(with(single).made->film->keepsNegatives());
+  EXPECT_TRUE(with(both).made->film->keepsNegatives());
+  EXPECT_FALSE(with(progressive).made->film->keepsNegatives());
+  EXPECT_FALSE(with(sppm).made->film->keepsNegatives());
+  expectMistakes({{debias("singel"), "unknown debias \"singel\"; did you mean \"single\"?", ""},
+                  {sppm + " \"string kernel\" \"gauss\"", "unknown kernel \"gauss\"", ""},
+                  {single + " \"float alpha\" 1", "\"alpha\"", ""},
+                  {single + " \"float c\" 0", "\"c\"", ""},
+                  {sppm + " \"integer photonsperiteration\" 2000000000", "held in memory", "", kTolerated}},
+                 with);
+  EXPECT_TRUE(with(sppm + " \"float alpha\" 0.5").warns("\"alpha\" has no effect with \"debias\" \"none\""));
+  EXPECT_TRUE(with(progressive + " \"float c\" 0.5").warns("\"c\" has no effect"));
+  EXPECT_TRUE(with(single).isSilent()) << with(single).messages();
+}
+
 TEST(ConstructIntegrator, SppmSaysWhatPhotonsCannotTell) {
   const auto with = [](const std::string& medium) {
     return attempt("Integrator \"sppm\"" +

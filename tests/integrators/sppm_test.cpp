@@ -11,6 +11,7 @@
 #include "integrators/sppm/photon_tracer.h"
 #include "integrators/sppm/pixel_radii.h"
 #include "lighting/light_strategy.h"
+#include "lights/distant.h"
 #include "materials/mirror.h"
 #include "media/phase/phase_function.h"
 #include "render/render_state.h"
@@ -46,7 +47,7 @@ class DirectPhotons {
       Rng rng(hashCombine(seed, static_cast<std::uint64_t>(i)));
       PhotonTracer(setup, sampler, rng, counters).trace(photons);
     }
-    return {PhotonMap<Photon>(photons.onSurfaces), PhotonMap<MediumPhoton>(photons.inMedia),
+    return {PhotonMap<SurfacePhoton>(photons.onSurfaces), PhotonMap<MediumPhoton>(photons.inMedia),
             static_cast<double>(paths)};
   }
 
@@ -57,13 +58,17 @@ class DirectPhotons {
 };
 
 /// Radiance by photons of a matte floor, at the first hit of a ray.
-Rgb gathered(const PhotonMaps& maps, const Scene& scene, const Ray& ray, float radius, int vertices = 9) {
+Rgb gathered(const PhotonMaps& maps, const Scene& scene, const Ray& ray, const PhotonGather::Kernels& kernels,
+             int vertices = 9) {
   std::uint64_t queries = 0;
   const auto hit = scene.closest(ray, 0, {}, queries);
   SurfaceInteraction si = scene.surface(*hit, ray);
   PhotonGather gather(maps, vertices);
-  gather.begin({radius, 0});
+  gather.begin(kernels);
   return gather.scatteredOnSurface(si, hit->primitive->material->bsdf(si, TransportMode::Radiance, true), 1);
+}
+Rgb gathered(const PhotonMaps& maps, const Scene& scene, const Ray& ray, float radius, int vertices = 9) {
+  return gathered(maps, scene, ray, {{KernelShape::Uniform, radius}, {KernelShape::Uniform, 0}}, vertices);
 }
 
 /// Power 10 over the lower hemisphere, one above a plane: 10 / (2 pi) at its foot. The mean over a disc of
@@ -120,7 +125,7 @@ TEST(SppmPhotons, OfAPointLightInFogHaveTheMeanOverTheBall) {
   for (std::uint64_t seed = 1; seed <= 64; ++seed) {
     const PhotonMaps maps = photons.trace(seed, 40000);
     PhotonGather gather(maps, 9);
-    gather.begin({0, static_cast<float>(kRadius)});
+    gather.begin({{KernelShape::Uniform, 0}, {KernelShape::Uniform, static_cast<float>(kRadius)}});
     means.add(static_cast<double>(
         gather.scatteredInMedium({kAway, 0, 0}, {0, 0, 1}, fog->phase(), Rgb(kSigmaS), 1).b));
     EXPECT_GT(gather.found().inMedia, 0u);
@@ -130,6 +135,59 @@ TEST(SppmPhotons, OfAPointLightInFogHaveTheMeanOverTheBall) {
   EXPECT_TRUE(test.sees(.01)) << test;
   const ZTest other = zTest(means, truth * 1.02, 1);
   EXPECT_GT(std::abs(other.z()), kMaxAbsZ) << other;
+}
+
+/// Where normals are smooth, photons on one facet count on the next by the cosine of the facet they are on:
+/// their density goes by that.
+TEST(SppmPhotons, OnTheNextFacetCountByItsCosine) {
+  constexpr double kIntensity = 2, kAlbedo = .5, kRadius = .3, kSlope = 1;  ///< radians, of the second facet
+  const Point3f lamp{.4f, .1f, 1.2f};
+  const Vector3f along(static_cast<float>(std::cos(kSlope)), 0, static_cast<float>(-std::sin(kSlope)));
+  SceneKit kit;
+  TriangleMesh::Params mesh;
+  mesh.P = {{-5, -5, 0},
+            {0, -5, 0},
+            {0, 5, 0},
+            {-5, 5, 0},
+            Point3f(5 * along.x, -5, 5 * along.z),
+            Point3f(5 * along.x, 5, 5 * along.z)};
+  mesh.indices = {0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2};
+  const Vector3f smooth = normalize(Vector3f(std::sin(.5f), 0, std::cos(.5f)));
+  mesh.N.assign(mesh.P.size(), Normal3f(smooth));
+  kit.builder.addPrimitive(
+      {.shape = kit.builder.own(std::make_unique<TriangleMesh>(std::move(mesh), ShapePlacement{})),
+       .material = kit.matte(kAlbedo)});
+  kit.pointLight(lamp, kIntensity);
+  const auto scene = kit.finish();
+  const Point3f at{-.05f, 0, 0};
+  // Over the disc of both facets.
+  double flux = 0, ofThisFacet = 0;
+  constexpr int kSteps = 1000;
+  for (const bool second : {false, true}) {
+    for (int i = 0; i < kSteps * kSteps; ++i) {
+      const double s = kRadius * 1.5 * (i % kSteps + .5) / kSteps;
+      const double y = kRadius * (2 * (i / kSteps + .5) / kSteps - 1);
+      const Vec3d p = second ? Vec3d(s * double{along.x}, y, s * double{along.z}) : Vec3d(-s, y, 0);
+      if (lengthSquared(p - Vec3d(at)) > kRadius * kRadius) continue;
+      const Vec3d d = Vec3d(lamp) - p;
+      const double area = kRadius * 1.5 * 2 * kRadius / (kSteps * kSteps);
+      flux += area * kIntensity * absDot(d, Vec3d(smooth)) / std::pow(lengthSquared(d), 1.5);
+    }
+    if (!second) ofThisFacet = flux;
+  }
+  const double scale = kAlbedo / std::numbers::pi / (std::numbers::pi * kRadius * kRadius);
+  DirectPhotons photons(*scene);
+  RunningStats found;
+  for (std::uint64_t seed = 1; seed <= 64; ++seed) {
+    found.add(
+        static_cast<double>(gathered(photons.trace(seed, 40000), *scene,
+                                     rayOf(at + Vector3f(0, 0, .5f), {0, 0, -1}), static_cast<float>(kRadius))
+                                .g));
+  }
+  const ZTest test = zTest(found, scale * flux, 1);
+  EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << test;
+  EXPECT_TRUE(test.sees(.02)) << test;
+  EXPECT_GT(flux, 1.3 * ofThisFacet) << "the next facet has a part in it";
 }
 
 TEST(SppmPhotons, OfLongPathsAreNotJoinedToDeepVertices) {
@@ -168,6 +226,102 @@ TEST(SppmRadii, ShrinkAsPhotonsAreFound) {
   EXPECT_LT(radii.of(1).onSurfaces, static_cast<float>(std::sqrt(area)));
   EXPECT_NEAR(radii.of(1).inMedia, std::cbrt(volume), 1e-6) << "each by its own";
   EXPECT_EQ(radii.of(0).onSurfaces, .5f) << "of another pixel";
+}
+
+// ---- Debiased kernels
+
+/// Estimates by the photons of iterations of debiased photon mapping, with and without the correction. Only
+/// differences of the first levels are taken, up to the kernel of a quarter of the size, so that the variance
+/// is finite: the mean is what that kernel finds. That all levels together make up for the rest is no
+/// question of chance (PhotonKernel.CorrectionsTelescope).
+struct Debiased {
+  RunningStats corrected, biased;
+};
+constexpr double kLastSize = .25;
+/// `gather(maps, kernels)`: at one point. `paths`: of the first level.
+template <class Gather>
+Debiased debiased(DirectPhotons& photons, float radius, int iterations, int paths, const Gather& gather) {
+  const KernelSchedule schedule({.debias = Debias::Single, .c = .499});
+  Debiased found;
+  Rng rng(5);
+  for (int i = 0; i < iterations; ++i) {
+    KernelSchedule::Step step = schedule.of(i, (i + rng.uniformDouble()) / iterations);
+    if (step.sizes.correction->size < 1.001 * kLastSize) step = {.sizes = {.base = step.sizes.base}};
+    const PhotonMaps maps =
+        photons.trace(static_cast<std::uint64_t>(i) + 1, static_cast<int>(paths * step.photons));
+    const auto with = [&](const KernelSizes& sizes) {
+      return static_cast<double>(
+          gather(maps, {{KernelShape::Cone, radius, sizes}, {KernelShape::Cone, radius, sizes}}).g);
+    };
+    found.corrected.add(with(step.sizes));
+    found.biased.add(with({.base = step.sizes.base}));
+  }
+  return found;
+}
+
+void expectCorrected(const Debiased& found, double first, double last) {
+  const ZTest corrected = zTest(found.corrected, last, 5), biased = zTest(found.biased, first, 5),
+              control = zTest(found.biased, last, 5);
+  std::printf("%.5f +- %.5f of %.5f, without correction %.5f of %.5f\n", corrected.mean,
+              corrected.standardError, last, biased.mean, first);
+  EXPECT_LT(std::abs(corrected.z()), kMaxAbsZ) << corrected;
+  EXPECT_LT(kMaxAbsZ * corrected.standardError, std::abs(first - last)) << "the correction must be seen";
+  EXPECT_LT(std::abs(biased.z()), kMaxAbsZ) << biased;
+  EXPECT_GT(std::abs(control.z()), kMaxAbsZ) << "negative control " << control;
+}
+
+/// The plane of the published experiment, with a wider kernel, whose bias is larger: 10 / (2 pi (1 +
+/// d²)^1.5).
+TEST(SppmDebiased, SeesAPointLightOnAPlaneAsTheLastKernelDoes) {
+  constexpr double kIrradiance = 10 / (2 * std::numbers::pi), kRadius = .8;
+  SceneKit kit;
+  kit.builder.addPrimitive({.shape = kit.square(0, 50), .material = kit.matte(1)});
+  kit.pointLight({0, 0, 1}, static_cast<float>(kIrradiance));
+  const auto scene = kit.finish();
+  DirectPhotons photons(*scene);
+  const auto meanWithin = [](double radius) {  // the cone on a disc is 6 (1 - x) x
+    return simpson(
+        [&](double x) {
+          return 6 * (1 - x) * x * kIrradiance / (std::numbers::pi * std::pow(1 + sqr(radius * x), 1.5));
+        },
+        0, 1);
+  };
+  expectCorrected(debiased(photons, static_cast<float>(kRadius), 4000, 500,
+                           [&](const PhotonMaps& maps, const PhotonGather::Kernels& kernels) {
+                             return gathered(maps, *scene, rayOf({0, 0, .5f}, {0, 0, -1}), kernels);
+                           }),
+                  meanWithin(kRadius), meanWithin(kRadius * std::sqrt(kLastSize)));
+}
+
+/// Fog under parallel light, exp(-sigma_t z) deep in it.
+TEST(SppmDebiased, SeesABeamInAMediumAsTheLastKernelDoes) {
+  constexpr double kSigmaA = .8, kSigmaS = 3.2, kRadius = .9;
+  SceneKit kit;
+  const Medium* const fog = kit.fog("fog", Rgb(kSigmaA), Rgb(kSigmaS));
+  kit.builder.addPrimitive({.shape = kit.box({-1, -1, -1}, {1, 1, 1}), .media = {fog, nullptr}});
+  kit.builder.addLight(std::make_unique<DistantLight>(
+      Transform(), DistantLight::Params{.radiance = Rgb(2), .from = {0, 0, 1}, .to = {0, 0, 0}}));
+  const auto scene = kit.finish();
+  DirectPhotons photons(*scene);
+  // Over shells, in each of which it has the mean sinh(s) / s: the cone in a ball is 12 (1 - x) x².
+  const auto meanWithin = [](double radius) {
+    constexpr double kSigmaT = kSigmaA + kSigmaS;
+    return 2 * std::exp(-kSigmaT) / (4 * std::numbers::pi) *
+           simpson(
+               [&](double x) {
+                 const double s = kSigmaT * radius * x;
+                 return 12 * (1 - x) * x * x * (s > 0 ? std::sinh(s) / s : 1);
+               },
+               0, 1);
+  };
+  expectCorrected(debiased(photons, static_cast<float>(kRadius), 2000, 1000,
+                           [&](const PhotonMaps& maps, const PhotonGather::Kernels& kernels) {
+                             PhotonGather gather(maps, 9);
+                             gather.begin(kernels);
+                             return gather.scatteredInMedium({0, 0, 0}, {0, 0, 1}, fog->phase(),
+                                                             Rgb(static_cast<float>(kSigmaS)), 1);
+                           }),
+                  meanWithin(kRadius), meanWithin(kRadius * std::cbrt(kLastSize)));
 }
 
 // ---- Whole renders
@@ -348,6 +502,44 @@ TEST(Sppm, GoesOnFromAStateToTheSameBits) {
   ASSERT_TRUE(restoreState(state, *room.scene, rest));
   sppm->render(CloseCamera(), sampler, rest, {.seed = 3, .start = &state});
   EXPECT_NE(rest.develop().data(), whole.image.data());
+}
+
+// ---- Whole renders without radii of their own
+
+SppmParams debiasedParams(Debias debias) {
+  return {.maxDepth = 3,
+          .photonsPerIteration = 2000,
+          .radius = .2f,
+          .kernel = KernelShape::Cone,
+          .schedule = {.debias = debias}};
+}
+constexpr Debias kDebiased[] = {Debias::Single, Debias::Progressive, Debias::ProgressiveUnbiased};
+
+TEST(SppmDebiased, IsTheSameBitsForAnyThreads) {
+  MirrorRoom room;
+  std::vector<std::vector<float>> images;
+  for (const Debias debias : kDebiased) {
+    const auto sppm = makeSppm(*room.scene, debiasedParams(debias));
+    const Outcome one = renderClose(*sppm, {.seed = 3}, 1, 5), other = renderClose(*sppm, {.seed = 3}, 5, 5);
+    EXPECT_EQ(one.image.data(), other.image.data());
+    EXPECT_TRUE(one.result.carried.empty());
+    for (const auto& before : images) EXPECT_NE(before, one.image.data()) << "each kind has its own image";
+    images.push_back(one.image.data());
+  }
+}
+
+TEST(SppmDebiased, IterationsCanBeTakenApart) {
+  MirrorRoom room;
+  EXPECT_NE(makeSppm(*room.scene, {})->whyInOnePiece(), "");
+  for (const Debias debias : kDebiased) {
+    const auto sppm = makeSppm(*room.scene, debiasedParams(debias));
+    EXPECT_EQ(sppm->whyInOnePiece(), "");
+    const double whole = meanOf(renderClose(*sppm, {.seed = 3}, 2, 6).image),
+                 first = meanOf(renderClose(*sppm, {.seed = 3, .endSample = 2}, 2, 6).image),
+                 rest = meanOf(renderClose(*sppm, {.seed = 3, .firstSample = 2}, 2, 6).image);
+    EXPECT_NEAR(whole, (2 * first + 4 * rest) / 6, 1e-3 * whole);
+    EXPECT_NE(first, rest);
+  }
 }
 
 }  // namespace

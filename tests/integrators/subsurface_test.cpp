@@ -2,10 +2,14 @@
 // Light that goes below surfaces, in `path` and `volpath`.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
+#include "materials/bssrdf.h"
 #include "materials/disney.h"
 #include "materials/fresnel.h"
 #include "materials/mix.h"
 #include "materials/subsurface.h"
+#include "support/function_line.h"
 #include "support/scene_kit.h"
 
 namespace pbrtmedia {
@@ -102,6 +106,34 @@ TEST(Subsurface, ADisneyPlaneReturnsItsColourToo) {
   const Estimates e = estimate(*makePath(*scene), ray, 1 << 16);
   // Its reflection is one of very small facets: that of the boundary.
   EXPECT_NEAR(e.red.mean(), underSky(0.6, -ray.d.z, 1.5f), kLost + 1e-3 + kMaxAbsZ * e.red.standardError());
+}
+
+/// Of a thin slab light comes out on both sides: a probe through both takes one of its hits, for both.
+TEST(Subsurface, AThinSlabReturnsWhatComesOutOfItsOtherSideToo) {
+  constexpr float kThickness = 0.05f;
+  SubsurfaceKit kit;
+  const Material* material = kit.subsurface(Rgb(0.5f), 0.1f);
+  kit.builder.addPrimitive(
+      {.shape = kit.box({-100, -100, -kThickness}, {100, 100, 0}), .material = material});
+  kit.sky(1);
+  const auto scene = kit.finish();
+  const Ray ray = rayOf({0.3f, 0, 1}, {-0.3f, 0, -1});
+  std::uint64_t queries = 0;
+  SurfaceInteraction si = scene->surface(*scene->closest(ray, 0, {}, queries), ray);
+  const Bssrdf bssrdf = material->bssrdf(si).value();
+  const auto beyond = [&](double nearest) {
+    return simpson(
+        [&](double r) {
+          return 2 * std::numbers::pi * r * static_cast<double>(bssrdf.radial(static_cast<float>(r)).r);
+        },
+        nearest, static_cast<double>(bssrdf.reach(0)));
+  };
+  const double otherSide = beyond(static_cast<double>(kThickness));
+  EXPECT_GT(otherSide, 0.1);
+  const Estimates e = estimate(*makePath(*scene, {.maxDepth = 1}), ray, 1 << 17);
+  const double truth = underSky(beyond(0) + otherSide, -ray.d.z);
+  EXPECT_NEAR(e.red.mean(), truth, kLost + kMaxAbsZ * e.red.standardError());
+  EXPECT_LT(kMaxAbsZ * e.red.standardError(), 0.1 * otherSide);
 }
 
 TEST(Subsurface, LightSpreadsAsItsProfileTells) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "film/splat_buffer.h"
 #include "integrators/bdpt/bdpt.h"
 #include "lighting/light_strategy.h"
 #include "support/render_scene.h"
@@ -127,6 +128,13 @@ std::vector<AgreementScene> scenes() {
        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .05 .05 .05 ] \"rgb "
        "sigma_s\" [ .2 .2 .2 ]\nMediumInterface \"\" \"fog\"\n"},
       {"lampInTheMedium", kFloor + kThin + mediumBox("m", {-1.2, -1.2, .2}, {1.2, 1.2, 2.8}) + kLamp, 64},
+      {"lampAtTheHeightOfTheCamera",
+       kFloor +
+           "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [ 9 8 6 ]\nMaterial \"matte\" \"rgb Kd\" [ "
+           ".3 "
+           ".3 .3 ]\nShape \"trianglemesh\" \"integer indices\" [ 0 2 1 0 3 2 ] \"point P\" [ -.6 -.6 1.6 .6 "
+           "-.6 1.6 .6 .6 1.6 -.6 .6 1.6 ]\nAttributeEnd\n" +
+           kThin + mediumBox("m", {-.8, -.8, .2}, {.8, .8, 1.3})},
       {"otherLaw", kFloor + kLamp + inBox(gridMedium("\"string law\" \"linear\" ")), 64},
       {"lens", kFloor + kLamp + kBall + inBox(kThin), 64, "", 3,
        "\"perspective\" \"float fov\" 40 \"float lensradius\" .2 \"float focaldistance\" 4"},
@@ -256,6 +264,82 @@ TEST(Bdpt, IsDarkerWithoutAnyOfItsStrategies) {
       std::printf("without s %d, t %d: darker by %.3f %%\n", s, depth + 2 - s, 100 * missing.mean());
     }
   }
+}
+
+/// Paths of a few vertices neither need memory for, nor depend on, what they might have had.
+TEST(Bdpt, IsTheSameWhateverMaxDepthBeyondItsPaths) {
+  const auto image = [](int maxDepth) {
+    return renderText(textOf({"", kFloor + kLamp, 1, "", maxDepth}, "bdpt"), {.seed = 3}).image;
+  };
+  const Image deep = image(1 << 30);
+  EXPECT_EQ(image(200).data(), deep.data());
+  EXPECT_NE(image(1).data(), deep.data());
+}
+
+/// What light paths would bring to other pixels is then left to the paths of each pixel itself.
+TEST(Bdpt, IsThatOfVolpathWhereNobodyWantsSplats) {
+  const auto mean = [](const std::string& integrator, bool splats, std::uint64_t firstSeed) {
+    const Construction made = constructText(textOf({"", kFloor + kLamp, 1, "", 2}, integrator));
+    RunningStats means;
+    RenderCounters counters;
+    for (std::uint64_t seed = firstSeed; seed < firstSeed + 2000; ++seed) {
+      const std::unique_ptr<Sampler> sampler = made.sampler->clone();
+      SplatBuffer nobodys;
+      double sum = 0;
+      for (int i = 0; i < kResolution * kResolution; ++i) {
+        sum += double{renderSample(*made.camera, *sampler, samplingIntegrator(made),
+                                   {i % kResolution, i / kResolution}, static_cast<std::int64_t>(seed), 1,
+                                   seed, counters, {.splats = splats ? &nobodys : nullptr})
+                          .g};
+      }
+      means.add(sum);
+    }
+    return means;
+  };
+  const RunningStats truth = mean("volpath", false, 1);
+  const ZTest without = zTest(mean("bdpt", false, 10000), truth),
+              withSplats = zTest(mean("bdpt", true, 10000), truth);
+  EXPECT_LT(std::abs(without.z()), kMaxAbsZ) << without;
+  EXPECT_TRUE(without.sees(.03)) << without;
+  EXPECT_LT(withSplats.mean, .97 * truth.mean()) << "control: splats are a part of the light";
+}
+
+/// Smooth normals of the floor that lean away from the wall. Where a surface faces light but its normal does
+/// not, light samples find that, and scattered rays never do: what comes from the wall is missing from the
+/// images of `path` and `volpath`, as in PBRT-v3. Paths from both ends find it, and so do photons, where the
+/// camera sees such a surface.
+TEST(Bdpt, SeesBeyondTheHorizonOfShadingNormalsAsPhotonsDo) {
+  const std::string leaning =
+      "Material \"matte\" \"rgb Kd\" [ .8 .8 .8 ]\nShape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 "
+      "] "
+      "\"point P\" [ -2 -2 0 2 -2 0 2 2 0 -2 2 0 ] \"normal N\" [ 0 -1 .3 0 -1 .3 0 -1 .3 0 -1 .3 ]\n"
+      "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -2 1.5 0 2 1.5 0 2 1.5 3 -2 "
+      "1.5 3 ]\nLightSource \"point\" \"point from\" [ -.6 .2 2 ] \"rgb I\" [ 5 5 5 ]\n";
+  // The lowest row, which sees the floor alone.
+  const auto means = [&](const std::string& integrator, int depth, const std::string& parameters = "") {
+    std::string text = textOf({"", leaning, depth == 1 ? 4096 : 512, "", depth}, integrator);
+    text.insert(text.find("\"image\"") + 7, " \"float cropwindow\" [ 0 1 .8 1 ]");
+    text.insert(text.find("\nLookAt"), parameters);
+    RunningStats all;
+    for (std::uint64_t seed = 1; seed <= 16; ++seed)
+      all.add(imageMean(renderText(text, {.seed = seed}).image, 1));
+    return all;
+  };
+  const ZTest direct = zTest(means("bdpt", 1), means("volpath", 1));
+  EXPECT_LT(std::abs(direct.z()), kMaxAbsZ) << direct;
+  EXPECT_TRUE(direct.sees()) << direct;
+  const RunningStats bdpt = means("bdpt", 2);
+  const ZTest photons =
+      zTest(means("sppm", 2,
+                  " \"integer photonsperiteration\" 20000 \"integer iterations\" 64 \"float "
+                  "radius\" .1"),
+            bdpt);
+  EXPECT_LT(std::abs(photons.z()), kMaxAbsZ) << photons;
+  EXPECT_TRUE(photons.sees(.1)) << photons;
+  const ZTest paths = zTest(means("volpath", 2), bdpt);
+  EXPECT_LT(paths.mean, .7 * bdpt.mean()) << paths;
+  std::printf("beyond the horizon: bdpt %.4f, sppm %.4f, volpath %.4f\n", bdpt.mean(), photons.mean,
+              paths.mean);
 }
 
 TEST(Bdpt, TakesTheSameBitsForAnyThreadsAndTiles) {

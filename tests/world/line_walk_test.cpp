@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
+#include "base/interruption.h"
+#include "base/stop_signal.h"
 #include "support/scene_kit.h"
 
 namespace pbrtmedia {
@@ -28,6 +32,19 @@ TEST(LineWalk, FindsEveryHitInOrder) {
   const auto hits = allHits(*scene, rayOf({0.3f, 0.1f, 0}, {0, 0, 1}));
   ASSERT_EQ(hits.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_FLOAT_EQ(hits[i].t(), static_cast<float>(i + 1));
+}
+
+/// Whoever walks: the ways that connect the two ends of a path, shadow rays, probes below a surface.
+TEST(LineWalk, IsLeftWhenPathsAreAbandoned) {
+  SceneKit kit;
+  kit.builder.addPrimitive({.shape = kit.square(1, 1), .material = kit.black()});
+  const auto scene = kit.finish();
+  const auto walkForALongTime = [&] {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (std::chrono::steady_clock::now() < end) allHits(*scene, rayOf({0.3f, 0.1f, 0}, {0, 0, 1}));
+  };
+  const StopSignal signal({.timeLimit = 0.02, .abandonsPaths = true});
+  EXPECT_THROW(walkForALongTime(), Interrupted);
 }
 
 TEST(LineWalk, FindsCoincidentSurfacesOnceEach) {

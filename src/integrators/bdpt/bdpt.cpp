@@ -53,7 +53,7 @@ bool BdptIntegrator::takes(std::size_t s, std::size_t t) const {
 Rgb BdptIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
   const Camera& camera = *context.camera;
   const MediumState start = media_.stateOf(ray, context.counters);
-  const bool isSeen = setup_.startSelector && camera.we(ray).value > 0;
+  const bool isSeen = setup_.startSelector && context.splats && camera.we(ray).value > 0;
   FoundRadiance found;
   const Subpath fromCamera =
       SubpathTracer(setup_, context).fromCamera(ray, start, isSeen, camera.pdfWe(ray), found);
@@ -63,16 +63,13 @@ Rgb BdptIntegrator::radiance(const RayDifferential& ray, SampleContext& context)
   }
   const std::optional<Subpath> fromLight = SubpathTracer(setup_, context).fromLight(ray, start);
   PathConnector connector(setup_, context, ray.time);
-  const auto uniform2D = [&] {
-    const float x = context.rng.uniform();
-    return Point2f{x, context.rng.uniform()};
-  };
+  PathSamples samples(context.sampler, context.rng, setup_.sampledVertices);
   const auto mostScatterings = static_cast<std::size_t>(params_.maxDepth);
   for (std::size_t j = 0; j < fromCamera.vertices.size(); ++j) {
     if (!fromCamera.vertices[j].isConnectible()) continue;
-    const bool isSampled = j < setup_.sampledVertices;
-    const float uLight = isSampled ? context.sampler.get1D() : context.rng.uniform();
-    const Point2f u = isSampled ? context.sampler.get2D() : uniform2D();
+    samples.startVertex(static_cast<int>(j));
+    const float uLight = samples.get1D();
+    const Point2f u = samples.get2D();
     if (takes(1, j + 2)) radiance += connector.lookForLight(fromCamera, j, uLight, u).weighted();
     if (!fromLight) continue;
     for (std::size_t i = 0; i < fromLight->vertices.size() && i + j + 2 <= mostScatterings; ++i) {
@@ -82,7 +79,8 @@ Rgb BdptIntegrator::radiance(const RayDifferential& ray, SampleContext& context)
   }
   if (!fromLight || !context.splats) return radiance;
   for (std::size_t i = 0; i < fromLight->vertices.size(); ++i) {
-    const Point2f lens = i < setup_.sampledVertices ? context.sampler.get2D() : uniform2D();
+    samples.startVertex(static_cast<int>(i));
+    const Point2f lens = samples.get2D();
     if (!fromLight->vertices[i].isConnectible() || !takes(i + 2, 1)) continue;
     const auto onFilm = connector.lookForCamera(*fromLight, i, lens);
     if (onFilm && onFilm->contribution.weight > 0)

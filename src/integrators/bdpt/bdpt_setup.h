@@ -18,8 +18,7 @@ struct BdptSetup {
   const MediaTopology* media;          ///< null: media are ignored
   bool mediaEmit;                      ///< some medium may emit
   StrategyWeights weights;
-  /// Scatterings that the Sampler serves; the others take the Rng.
-  std::size_t sampledVertices = 4;
+  int sampledVertices = 4;  ///< of a subpath, that the Sampler serves; the others take the Rng
 
   MediaWalk::Context walkContext(SampleContext& context) const {
     return {scene, media, context.counters, context.counters.rays, context.mismatches};

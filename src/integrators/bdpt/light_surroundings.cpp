@@ -2,6 +2,7 @@
 #include "integrators/bdpt/light_surroundings.h"
 
 #include "world/boundary_planes.h"
+#include "world/state_at_start.h"
 
 namespace pbrtmedia {
 namespace {
@@ -12,9 +13,9 @@ constexpr float kBeyond = 1e-3f;
 
 }  // namespace
 
-std::optional<LightSurroundings> surroundingsOf(const BdptSetup& setup, PrimitiveId target, bool isInfinite,
-                                                const Ray& ray, Normal3f normal, Point3f camera,
-                                                MediumState atCamera, SampleContext& context) {
+LightSurroundings surroundingsOf(const BdptSetup& setup, PrimitiveId target, bool isInfinite, const Ray& ray,
+                                 Normal3f normal, Point3f camera, MediumState atCamera,
+                                 SampleContext& context) {
   LightSurroundings found;
   if (target.isValid()) found.start.add(target, 0);
   if (!setup.media || isInfinite) return found;
@@ -45,7 +46,8 @@ std::optional<LightSurroundings> surroundingsOf(const BdptSetup& setup, Primitiv
     if (!found.state.isVacuum()) found.plane = planeAt(*hit, si, Vec3d(ray.o), ray.d, ray.time);
     return found;
   }
-  if (target.isValid()) return std::nullopt;
+  // A light that is not met from the camera: in its plane, at a hole of it, or hidden by rounding.
+  if (target.isValid()) found.state = stateAtStart(*setup.media, ray, found.start, context.counters);
   return found;
 }
 

@@ -48,11 +48,6 @@ struct PathVertex {
   }
 };
 
-/// Whether a light shines from infinitely far.
-inline bool isAtInfinity(const Light& light) {
-  return light.isInfinite() || (light.isDelta() && !light.deltaPosition());
-}
-
 /// Where a path ends on a light.
 struct LightPoint {
   std::size_t index = 0;  ///< in Scene::lights()
@@ -62,8 +57,7 @@ struct LightPoint {
   Vector3f d{};         ///< unit, from the path's next vertex to the light
   bool isArea = false;  ///< p lies on a surface
   double emitted = 0;  ///< density of the point (direction, for lights at infinity) when the path starts here
-  double looked = 0;   ///< the same when the next vertex looks for it
-  bool isInfinite() const { return isAtInfinity(*light); }
+  bool isInfinite() const { return light->isAtInfinity(); }
 };
 
 /// A part of a path from one of its ends: the vertices at which it scatters, in order. `others`: the sum over

@@ -31,7 +31,7 @@ class StrategyWeights {
   /// Whether subpaths start on a light. On those that are split (Light::isSplit) they would shine where light
   /// samples do not, and from infinity only into scenes with nothing but vacuum around them.
   bool startsOn(const Light& light) const {
-    return starts_ && !light.isSplit() && (infiniteLightsStart_ || !isAtInfinity(light));
+    return starts_ && !light.isSplit() && (infiniteLightsStart_ || !light.isAtInfinity());
   }
 
   /// Area density (volume density, where `to` is in a medium) of a vertex that is found along a direction of
@@ -45,7 +45,7 @@ class StrategyWeights {
   double departure(const LightPoint& from, const PathVertex& to, Rgb depth, float time) const;
   /// Of the light's point: LightPoint::emitted.
   double emitted(const LightPoint& light, Point3f next, float time) const;
-  /// LightPoint::looked, from `next`.
+  /// The same when `next` looks for it.
   double looked(const LightPoint& light, Point3f next) const;
   /// Of the same direction, per solid angle, without the choice among lights.
   float lookedDirection(const LightPoint& light, Point3f next) const;

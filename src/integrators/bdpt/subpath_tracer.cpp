@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "base/interruption.h"
 #include "base/warp.h"
 #include "integrators/bdpt/light_surroundings.h"
 #include "materials/material.h"
+#include "spectrum/largest_channel.h"
 #include "world/boundary_planes.h"
 
 namespace pbrtmedia {
@@ -15,8 +15,6 @@ namespace {
 /// Subpaths of less weight than this, relative to their start, are thinned out.
 constexpr float kRouletteWeight = 0.03f;
 constexpr std::size_t kMostReserved = 16;
-
-float sizeOf(Rgb beta) { return std::max(std::abs(beta.max()), std::abs(beta.min())); }
 
 /// Density per solid angle of `wo` given `wi` relative to that of `wi` given `wo`, for a lobe without extent:
 /// eta² cos d(direction) is the same on both sides of a surface.
@@ -30,18 +28,9 @@ double specularPdfBack(const Bsdf& bsdf, const SurfaceInteraction& si, Vector3f 
 
 }  // namespace
 
-float SubpathTracer::get1D() {
-  return path_.vertices.size() <= setup_.sampledVertices ? context_.sampler.get1D() : context_.rng.uniform();
-}
-Point2f SubpathTracer::get2D() {
-  if (path_.vertices.size() <= setup_.sampledVertices) return context_.sampler.get2D();
-  const float x = context_.rng.uniform();
-  return {x, context_.rng.uniform()};
-}
-
 Subpath SubpathTracer::fromCamera(const Ray& ray, const MediumState& state, bool isSeen, WePdf pdf,
                                   FoundRadiance& found, bool looksBeyond) {
-  found.assign(static_cast<std::size_t>(setup_.maxDepth) + 1, Rgb());
+  found.clear();
   found_ = &found;
   looksBeyond_ = looksBeyond;
   path_.firstOthers = isSeen ? 1 : 0;
@@ -63,13 +52,12 @@ std::optional<Subpath> SubpathTracer::fromLight(const Ray& toCamera, const Mediu
   const float pdf = choice.probability * s.pdf.position * s.pdf.direction;
   if (!(pdf > 0) || s.radiance.isBlack()) return std::nullopt;
   const PrimitiveId target = setup_.scene.lightTarget(choice.light);
-  std::optional<LightSurroundings> around =
-      surroundingsOf(setup_, target, isAtInfinity(light), s.ray, s.normal, toCamera.o, atCamera, context_);
-  if (!around) return std::nullopt;
+  LightSurroundings around =
+      surroundingsOf(setup_, target, light.isAtInfinity(), s.ray, s.normal, toCamera.o, atCamera, context_);
   ray_ = s.ray;
-  rayStart_ = around->start;
-  startPlane_ = around->plane;
-  state_ = std::move(around->state);
+  rayStart_ = around.start;
+  startPlane_ = around.plane;
+  state_ = std::move(around.state);
   beta_ = s.radiance * (absDot(s.normal, s.ray.d) / pdf);
   path_.light = {.index = choice.light,
                  .light = &light,
@@ -81,9 +69,15 @@ std::optional<Subpath> SubpathTracer::fromLight(const Ray& toCamera, const Mediu
   return std::move(path_);
 }
 
+Rgb& SubpathTracer::foundHere() {
+  const std::size_t scatterings = path_.vertices.size();
+  if (found_->size() <= scatterings) found_->resize(scatterings + 1);
+  return (*found_)[scatterings];
+}
+
 void SubpathTracer::trace() {
   path_.vertices.reserve(std::min(kMostReserved, static_cast<std::size_t>(setup_.maxDepth)));
-  firstSize_ = sizeOf(beta_);
+  firstSize_ = largestChannel(beta_);
   while (goOn() == Event::Vertex && (looksBeyond_ || !seesOnlyEmission()) && scatter()) {
   }
 }
@@ -108,7 +102,6 @@ SubpathTracer::Event SubpathTracer::follow(MediaWalk& walk, BoundaryPlane start)
                                   ? setup_.scene.hiderOf(path_.light.index)
                                   : PrimitiveId::kNone;
   for (;;) {
-    leaveIfAbandoned();
     const SceneHit* const nearest = walk.ahead();
     if (seesOnlyEmission()) {
       const bool blocked = nearest && nearest->primitive->material && !nearest->isEmitter();
@@ -173,16 +166,10 @@ bool SubpathTracer::passMedium(const MediaStretch& stretch, const SceneHit* hit,
 
 void SubpathTracer::addMediumVertex(const MediaStretch& stretch, const MediumFlight& flight,
                                     const SceneHit* hit, const BoundaryPlane& start) {
-  const double tMax = stretch.tMax();
-  BoundaryPlane end;
-  if (hit && tMax - flight.t < kNearBoundary * (tMax + maxComponent(abs(ray_.o)))) {
-    end = planeAt(*hit, setup_.scene.surface(*hit, ray_), Vec3d(ray_.o) + tMax * Vec3d(ray_.d), -ray_.d,
-                  ray_.time);
-  }
   const FlightControl control = stretch.upTo(flight.t).control();
   depth_ += control.depth;
   PathVertex vertex;
-  vertex.at = scatterPoint(ray_, flight.t, start, end, context_.counters);
+  vertex.at = scatterPointOn(setup_.scene, ray_, flight.t, stretch.tMax(), hit, start, context_.counters);
   vertex.p = vertex.at.p;
   vertex.phase = flight.phase;
   vertex.wo = -ray_.d;
@@ -225,13 +212,14 @@ void SubpathTracer::addVertex(PathVertex vertex) {
 /// Chooses the way from the last vertex; false: the subpath ends there.
 bool SubpathTracer::scatter() {
   PathVertex& vertex = path_.vertices.back();
+  samples_.startVertex(static_cast<int>(path_.vertices.size()) - 1);
   return vertex.isOnSurface() ? scatterOnSurface(vertex) : scatterInMedium(vertex);
 }
 
 bool SubpathTracer::scatterOnSurface(PathVertex& vertex) {
   ++context_.counters.surfaceScatterings;
   const SurfaceInteraction& si = vertex.si;
-  const BsdfSample sample = vertex.bsdf.sample(si.wo, get2D());
+  const BsdfSample sample = vertex.bsdf.sample(si.wo, samples_.get2D());
   if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
   beta_ *= sample.f * (absDot(sample.wi, vertex.bsdf.shadingNormal()) / sample.pdf);
   if (beta_.isBlack()) return false;
@@ -259,7 +247,7 @@ bool SubpathTracer::scatterInMedium(PathVertex& vertex) {
     ++context_.counters.stuckPaths;
     return false;
   }
-  const PhaseFunction::Sample sample = vertex.phase->sample(vertex.wo, get2D());
+  const PhaseFunction::Sample sample = vertex.phase->sample(vertex.wo, samples_.get2D());
   if (!(sample.value > 0)) return false;
   pdfDirection_ = double{sample.value};
   setup_.weights.scattersOn(path_, double{vertex.phase->evaluate(sample.wi, vertex.wo)});
@@ -273,7 +261,7 @@ bool SubpathTracer::scatterInMedium(PathVertex& vertex) {
 }
 
 bool SubpathTracer::playRoulette() {
-  const float survival = sizeOf(beta_) / (kRouletteWeight * firstSize_);
+  const float survival = largestChannel(beta_) / (kRouletteWeight * firstSize_);
   if (!(survival < 1)) return true;
   if (context_.rng.uniform() >= survival) return false;
   beta_ /= survival;
@@ -285,7 +273,7 @@ void SubpathTracer::collectMediumEmission(const MediaStretch& stretch) {
   for (std::size_t i = 0; i < state_.activeCount(); ++i) {
     if (!state_.active(i).medium->isEmissive()) continue;
     const EmissionSamples found = stretch.sampleEmission(i, context_.stream(), context_.counters);
-    for (const EmissionSamples::Sample& e : found) (*found_)[path_.vertices.size()] += beta_ * e.radiance;
+    for (const EmissionSamples::Sample& e : found) foundHere() += beta_ * e.radiance;
   }
 }
 
@@ -309,7 +297,7 @@ void SubpathTracer::collectHit(const SceneHit& hit, const SurfaceInteraction& si
                        .d = ray_.d,
                        .isArea = true});
   }
-  (*found_)[path_.vertices.size()] += beta_ * emitted * static_cast<float>(weight);
+  foundHere() += beta_ * emitted * static_cast<float>(weight);
 }
 
 void SubpathTracer::collectBackground() {
@@ -319,7 +307,7 @@ void SubpathTracer::collectBackground() {
     if (background.isBlack()) continue;
     const double weight =
         path_.vertices.empty() ? 1 : weightOf({.index = index, .light = light, .d = ray_.d});
-    (*found_)[path_.vertices.size()] += beta_ * background * static_cast<float>(weight);
+    foundHere() += beta_ * background * static_cast<float>(weight);
   }
 }
 

@@ -6,19 +6,21 @@
 
 #include "integrators/bdpt/bdpt_setup.h"
 #include "integrators/bdpt/path_vertex.h"
+#include "integrators/path/path_samples.h"
 #include "materials/transport_mode.h"
 
 namespace pbrtmedia {
 
-/// Radiance that a camera subpath finds by itself, by the number of its scatterings: strategies without a
-/// vertex from the light's end, and what media emit.
+/// Radiance that a camera subpath finds by itself, by the number of its scatterings up to the last that finds
+/// some: strategies without a vertex from the light's end, and what media emit.
 using FoundRadiance = std::vector<Rgb>;
 
 /// Walks one subpath, from the camera or from a light. Boundaries without material are crossed on the way and
 /// are no vertices.
 class SubpathTracer {
  public:
-  SubpathTracer(const BdptSetup& setup, SampleContext& context) : setup_(setup), context_(context) {}
+  SubpathTracer(const BdptSetup& setup, SampleContext& context)
+      : setup_(setup), context_(context), samples_(context.sampler, context.rng, setup.sampledVertices) {}
 
   /// With up to setup.maxDepth scatterings, and a last way that only looks for emission, unless `looksBeyond`
   /// is false. `isSeen`: light subpaths find the camera too where this ray starts; `pdf` is its density.
@@ -50,11 +52,12 @@ class SubpathTracer {
 
   bool seesOnlyEmission() const { return static_cast<int>(path_.vertices.size()) >= setup_.maxDepth; }
   bool isDirect() const { return path_.vertices.empty() || path_.vertices.back().isSpecular; }
-  float get1D();
-  Point2f get2D();
+  /// What the subpath finds after as many scatterings as there are now.
+  Rgb& foundHere();
 
   const BdptSetup& setup_;
   SampleContext& context_;
+  PathSamples samples_;
   FoundRadiance* found_ = nullptr;  ///< of a path from the camera
   bool looksBeyond_ = false;        ///< a last way looks for emission
 

@@ -36,7 +36,11 @@ class SpecularRecursion {
   /// Reflected radiance toward si.wo from direct light.
   using Lighting = std::function<Rgb(const ShadedPoint&, PathSamples&)>;
   SpecularRecursion(const Scene& scene, int maxDepth, const Lighting& lighting, SampleContext& context)
-      : scene_(scene), maxDepth_(maxDepth), lighting_(lighting), context_(context), samples_(context) {}
+      : scene_(scene),
+        maxDepth_(maxDepth),
+        lighting_(lighting),
+        context_(context),
+        samples_(context.sampler, context.rng) {}
   /// Once: it also tells the layers that are wanted.
   Rgb radiance(const RayDifferential& cameraRay);
 

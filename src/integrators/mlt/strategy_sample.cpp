@@ -63,7 +63,8 @@ class Finder {
     if (fromLight == 0) {
       FoundRadiance found;
       cameraSubpath(depth, found, true);
-      return found[static_cast<std::size_t>(depth)];
+      const auto scatterings = static_cast<std::size_t>(depth);
+      return scatterings < found.size() ? found[scatterings] : Rgb();
     }
     const int lightVertices = fromLight - 1, cameraVertices = depth - lightVertices;
     FoundRadiance ignored;
@@ -116,7 +117,7 @@ class Finder {
   BdptSetup setupOf(int vertices) const {
     BdptSetup setup = setup_;
     setup.maxDepth = vertices;
-    setup.sampledVertices = std::numeric_limits<std::size_t>::max();
+    setup.sampledVertices = std::numeric_limits<int>::max();
     return setup;
   }
 

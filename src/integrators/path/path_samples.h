@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "render/sample_context.h"
+#include "base/rng.h"
+#include "samplers/sampler.h"
 
 namespace pbrtmedia {
 
@@ -15,23 +16,27 @@ class PathSamples {
   /// little use beyond some tens.
   static constexpr int kSampledVertices = 8;
 
-  explicit PathSamples(SampleContext& context) : context_(context) {}
-  void startVertex(int index) { fromSampler_ = index < kSampledVertices; }
-  float get1D() { return fromSampler_ ? context_.sampler.get1D() : context_.rng.uniform(); }
+  /// Of a path of whose vertices the first `sampledVertices` use the Sampler.
+  PathSamples(Sampler& sampler, Rng& rng, int sampledVertices = kSampledVertices)
+      : sampler_(sampler), rng_(rng), sampledVertices_(sampledVertices) {}
+  void startVertex(int index) { fromSampler_ = index < sampledVertices_; }
+  float get1D() { return fromSampler_ ? sampler_.get1D() : rng_.uniform(); }
   Point2f get2D() {
-    if (fromSampler_) return context_.sampler.get2D();
-    const float x = context_.rng.uniform();
-    return {x, context_.rng.uniform()};
+    if (fromSampler_) return sampler_.get2D();
+    const float x = rng_.uniform();
+    return {x, rng_.uniform()};
   }
   /// Resizes `out` to `n` points.
   void get2DArray(std::size_t n, std::vector<Point2f>& out) {
     out.resize(n);
-    if (fromSampler_) return context_.sampler.get2DArray(out);
+    if (fromSampler_) return sampler_.get2DArray(out);
     for (Point2f& u : out) u = get2D();
   }
 
  private:
-  SampleContext& context_;
+  Sampler& sampler_;
+  Rng& rng_;
+  int sampledVertices_;
   bool fromSampler_ = true;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/path/path_tracer.h"
 
-#include "base/interruption.h"
 #include "materials/bsdf.h"
 #include "materials/material.h"
 #include "media/medium.h"
 #include "media/phase/phase_function.h"
+#include "spectrum/largest_channel.h"
 #include "world/boundary_planes.h"
 #include "world/subsurface_probe.h"
 
@@ -24,12 +24,10 @@ constexpr float kMediumRouletteWeight = 0.03f;
 /// 2.6 times one; the variance of one reaches that at factors of 2.5 to 4 (cubes of optical depth 2 to 40).
 constexpr float kSplitFactor = 3;
 
-constexpr BsdfFlags kDiffuse = BsdfFlags::Diffuse | BsdfFlags::Reflection | BsdfFlags::Transmission;
-
 /// Whether sampling the BSDF reaches every direction in which it scatters. With a shading normal, or glossy
 /// lobes, some can be reached by light samples only.
 bool samplingCoversBsdf(const Bsdf& bsdf, const SurfaceInteraction& si) {
-  return bsdf.count(kDiffuse) == bsdf.count() && bsdf.shadingNormal() == si.n;
+  return bsdf.count(BsdfFlags::AllDiffuse) == bsdf.count() && bsdf.shadingNormal() == si.n;
 }
 
 }  // namespace
@@ -39,7 +37,7 @@ PathTracer::PathTracer(const PathSetup& setup, const RayDifferential& ray, const
     : setup_(setup),
       context_(context),
       indirect_(indirect),
-      samples_(context),
+      samples_(context.sampler, context.rng),
       counters_(context.counters),
       ray_(ray),
       state_(start),
@@ -54,15 +52,15 @@ Rgb PathTracer::trace() {
   return radiance;
 }
 
-Rgb PathTracer::scatterFrom(Event event) {
+Rgb PathTracer::scatterFrom(PathEvent event) {
   for (;; event = flyToEvent()) {
     switch (event) {
-      case Event::End:
+      case PathEvent::End:
         return radiance_;
-      case Event::Surface:
+      case PathEvent::Surface:
         if (!scatterOnSurface()) return radiance_;
         break;
-      case Event::Medium:
+      case PathEvent::Medium:
         if (!scatterInMedium()) return radiance_;
         break;
     }
@@ -71,8 +69,8 @@ Rgb PathTracer::scatterFrom(Event event) {
 
 /// Follows the ray through boundaries without material to the next scattering event, and collects what emits
 /// on the way. Crossings cost no depth and no roulette.
-PathTracer::Event PathTracer::flyToEvent() {
-  if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters() && !setup_.mediaEmit) return Event::End;
+PathEvent PathTracer::flyToEvent() {
+  if (seesOnlyEmission() && !setup_.scene.hasVisibleEmitters() && !setup_.mediaEmit) return PathEvent::End;
   const bool isFromCamera = bounces_ == 0;
   Way way{{walkContext(), state_,
            isFromCamera ? LineWalk::fromCamera(setup_.scene, ray_) : LineWalk(setup_.scene, ray_, rayStart_),
@@ -89,27 +87,26 @@ MediaWalk::Context PathTracer::shadowContext() const {
   return {setup_.scene, setup_.media, counters_, counters_.shadowRays, context_.mismatches};
 }
 
-PathTracer::Event PathTracer::followWay(Way& way) {
+PathEvent PathTracer::followWay(Way& way) {
   MediaWalk& walk = way.walk;
   for (;;) {
-    leaveIfAbandoned();
     const SceneHit* const nearest = walk.ahead();
     if (seesOnlyEmission()) {
       const bool blocked = nearest && nearest->primitive->material && !nearest->isEmitter();
       if (blocked || (!nearest && setup_.scene.infiniteLights().empty())) {
         if (setup_.mediaEmit) collectMediumEmission({state_, ray_, walk.t(), walk.tEnd()});
-        return Event::End;
+        return PathEvent::End;
       }
     }
     if (!state_.isVacuum()) {
-      Event event = Event::End;
+      PathEvent event = PathEvent::End;
       if (!passMedium(way, nearest, event)) return event;
     }
     const std::optional<SceneHit> hit = walk.next();
     if (!hit) {
       if (layers_ && bounces_ == 0) layers_->addEscape(beta_);
       collectBackground();
-      return Event::End;
+      return PathEvent::End;
     }
     const bool scatters = hit->primitive->material != nullptr;
     if (!scatters && !hit->isEmitter() && !setup_.media) {
@@ -119,11 +116,11 @@ PathTracer::Event PathTracer::followWay(Way& way) {
     const SurfaceInteraction si = surfaceAt(*hit);
     if (hit->isEmitter()) collectEmission(way, *hit, si);
     if (scatters) {
-      if (seesOnlyEmission()) return Event::End;
+      if (seesOnlyEmission()) return PathEvent::End;
       surface_ = {*hit, si, {}};
       if (setup_.media && setup_.scene.hasMediumBoundaries())
         surface_.coincident = walk.coincidentWith(*hit, si);
-      return Event::Surface;
+      return PathEvent::Surface;
     }
     if (setup_.media) {
       const Vec3d p = Vec3d(ray_.o) + walk.tEnd() * Vec3d(ray_.d);
@@ -135,10 +132,10 @@ PathTracer::Event PathTracer::followWay(Way& way) {
 
 /// The media between two surfaces, `hit` the one at the end. True: the path passes. False: `event` tells
 /// whether it scatters or ends.
-bool PathTracer::passMedium(const Way& way, const SceneHit* hit, Event& event) {
+bool PathTracer::passMedium(const Way& way, const SceneHit* hit, PathEvent& event) {
   if (!seesOnlyEmission() && splitsChannels()) {
     followChannels(way);
-    event = Event::End;
+    event = PathEvent::End;
     return false;
   }
   const MediaStretch stretch(state_, ray_, way.walk.t(), way.walk.tEnd());
@@ -164,7 +161,7 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, Event& event) {
              stretch.tMax(),
              lit ? std::optional(lit->extinction) : std::nullopt};
   if (!isFinite(medium_.at.p)) return false;  // beyond what coordinates can tell: nothing is out there
-  event = Event::Medium;
+  event = PathEvent::Medium;
   return false;
 }
 
@@ -300,7 +297,7 @@ bool PathTracer::leaveSurface(const Bsdf& bsdf, const BsdfSample& sample) {
 /// Which lobes the path goes on with. Those that are not specular may end it at the next light.
 PathTracer::LobeChoice PathTracer::askForIndirectLight(const Bsdf& bsdf) {
   LobeChoice choice{.u = samples_.get2D()};
-  if (!indirect_ || bsdf.count(kDiffuse) == 0) return choice;
+  if (!indirect_ || bsdf.count(BsdfFlags::AllDiffuse) == 0) return choice;
   const std::size_t lobes = bsdf.count(), specular = lobes - bsdf.count(BsdfFlags::AllButSpecular);
   if (specular > 0) {
     const float share = static_cast<float>(specular) / static_cast<float>(lobes);
@@ -359,7 +356,7 @@ void PathTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane,
 
 bool PathTracer::playRoulette(bool inMedium) {
   const float threshold = setup_.params.rrThreshold;
-  const float weight = std::max(std::abs(beta_.max()), std::abs(beta_.min())) * etaScale_;
+  const float weight = largestChannel(beta_) * etaScale_;
   float survival = 1;
   if (bounces_ - 1 > kRouletteBounces) {
     if (weight < threshold) survival = std::min(weight, inMedium ? 1.0f : 1 - kLeastTermination);

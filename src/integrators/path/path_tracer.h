@@ -6,6 +6,7 @@
 
 #include "integrators/path/indirect_light.h"
 #include "integrators/path/path.h"
+#include "integrators/path/path_event.h"
 #include "integrators/path/path_samples.h"
 #include "materials/bsdf.h"
 #include "media/phase/phase_function.h"
@@ -42,18 +43,12 @@ class PathTracer {
   Rgb trace();
 
  private:
-  struct SurfaceVertex {
-    SceneHit hit;
-    SurfaceInteraction si;
-    CoincidentSurfaces coincident;
-  };
   struct MediumVertex {
     ScatterPoint at;
     const PhaseFunction* phase;
     double t, tMin, tMax;              ///< on the ray, and the stretch in media that it was sampled on
     std::optional<double> extinction;  ///< LitStretch; nothing: no lights were sampled on the stretch
   };
-  enum class Event { End, Surface, Medium };
 
   /// The way from one scattering event toward the next.
   struct Way {
@@ -66,15 +61,15 @@ class PathTracer {
   MediaWalk::Context walkContext() const;
   MediaWalk::Context shadowContext() const;
   /// Scatters from `event` on until the path ends; what it has gathered.
-  Rgb scatterFrom(Event event);
+  Rgb scatterFrom(PathEvent event);
   // Each path event is one function. Those that return bool tell whether the path goes on.
-  Event flyToEvent();
+  PathEvent flyToEvent();
   /// Adds radiance that was scattered so often; `here`: by what at the vertex at hand.
   void gather(Rgb radiance, int scatterings, RayLayers::Scatterer here);
   void tellSurface(const Bsdf& bsdf);
   void tellScattering();
-  Event followWay(Way& way);
-  bool passMedium(const Way& way, const SceneHit* hit, Event& event);
+  PathEvent followWay(Way& way);
+  bool passMedium(const Way& way, const SceneHit* hit, PathEvent& event);
   bool splitsChannels() const;
   void followChannels(const Way& way);
   void lightStretch(const LitStretch& stretch, const SceneHit* hit, const BoundaryPlane& start);

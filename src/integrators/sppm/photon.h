@@ -6,12 +6,17 @@
 
 namespace pbrtmedia {
 
-/// A vertex of a light path on a surface that scatters diffusely.
+/// A vertex of a light path.
 struct Photon {
   Point3f p;        ///< world
   Vector3f wi;      ///< unit, toward where it comes from
   Rgb power;        ///< that arrives, for one light path instead of all
   int scatterings;  ///< before this one
+};
+
+/// One on a surface that scatters diffusely.
+struct SurfacePhoton : Photon {
+  float cosine;  ///< >= 0, of wi and the normal of the surface there, not that of shading
 };
 
 /// One in media: of its power, what is scattered.

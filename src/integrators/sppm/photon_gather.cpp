@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/sppm/photon_gather.h"
 
-#include <cmath>
-#include <numbers>
-
 #include "materials/bsdf.h"
 #include "media/phase/phase_function.h"
 
@@ -13,10 +10,10 @@ namespace {
 /// In double, as thousands are added that differ widely.
 struct PowerSum {
   double r = 0, g = 0, b = 0;
-  void add(Rgb power) {
-    r += power.r;
-    g += power.g;
-    b += power.b;
+  void add(Rgb power, double weight) {
+    r += weight * double{power.r};
+    g += weight * double{power.g};
+    b += weight * double{power.b};
   }
   Rgb over(double divisor) const {
     return {static_cast<float>(r / divisor), static_cast<float>(g / divisor),
@@ -36,32 +33,33 @@ Rgb fluence(Rgb power, Rgb sigmaS) {
 }  // namespace
 
 Rgb PhotonGather::scatteredOnSurface(const SurfaceInteraction& si, const Bsdf& bsdf, int vertex) {
-  const double radius{radii_.onSurfaces};
+  const DiscKernel& kernel = kernels_.onSurfaces;
   const Normal3f shading = bsdf.shadingNormal();
-  // The density of photons goes by the geometric cosine, scattering by that of the shading normal.
+  // The density of photons goes by the cosine where they are, scattering by that of the shading normal here.
   const bool isShadedFlat = shading == si.n || shading == -si.n;
   PowerSum sum;
-  maps_.onSurfaces.within(si.p, radii_.onSurfaces, [&](const Photon& photon, float) {
+  maps_.onSurfaces.within(si.p, kernel.radius(), [&](const SurfacePhoton& photon, float distance2) {
     if (!joins(photon, vertex)) return;
     ++found_.onSurfaces;
     const Rgb f = bsdf.f(si.wo, photon.wi, BsdfFlags::AllButSpecular);
     if (f.isBlack()) return;
-    const float cosines = isShadedFlat ? 1 : absDot(photon.wi, shading) / absDot(photon.wi, si.n);
-    sum.add(f * photon.power * cosines);
+    const float cosines = isShadedFlat ? 1 : absDot(photon.wi, shading) / photon.cosine;
+    sum.add(f * photon.power * cosines, kernel(distance2));
   });
-  return sum.over(std::numbers::pi * radius * radius * maps_.paths);
+  return sum.over(kernel.measure() * maps_.paths);
 }
 
 Rgb PhotonGather::scatteredInMedium(Point3f p, Vector3f wo, const PhaseFunction& phase, Rgb sigmaS,
                                     int vertex) {
-  const double radius{radii_.inMedia};
+  const BallKernel& kernel = kernels_.inMedia;
   PowerSum sum;
-  maps_.inMedia.within(p, radii_.inMedia, [&](const MediumPhoton& photon, float) {
+  maps_.inMedia.within(p, kernel.radius(), [&](const MediumPhoton& photon, float distance2) {
     if (!joins(photon, vertex)) return;
     ++found_.inMedia;
-    sum.add(phase.evaluate(wo, photon.wi) * fluence(photon.power, 0.5f * (sigmaS + photon.sigmaS)));
+    sum.add(phase.evaluate(wo, photon.wi) * fluence(photon.power, 0.5f * (sigmaS + photon.sigmaS)),
+            kernel(distance2));
   });
-  return sum.over(4 * std::numbers::pi / 3 * radius * radius * radius * maps_.paths);
+  return sum.over(kernel.measure() * maps_.paths);
 }
 
 }  // namespace pbrtmedia

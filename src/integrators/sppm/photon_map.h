@@ -12,8 +12,9 @@
 namespace pbrtmedia {
 
 /// Points with what they carry (`P::p`), to be found by place. Sorted along a Morton curve, with boxes around
-/// every few of them, around every two of these boxes, and so on. Order and tree, and with them the order in
-/// which points are found, follow from the points alone. Immutable, thread-safe.
+/// every few of them, around every two of these boxes, and so on. Tree and order, in which points are found
+/// too, follow from the places of the points; that of points in one cell of the curve, from theirs in
+/// `points`. Immutable, thread-safe.
 template <class P>
 class PhotonMap {
  public:

@@ -1,38 +1,24 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/sppm/photon_tracer.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "base/interruption.h"
 #include "materials/bsdf.h"
 #include "materials/material.h"
+#include "spectrum/largest_channel.h"
 #include "world/boundary_planes.h"
+#include "world/state_at_start.h"
 #include "world/visibility.h"
 
 namespace pbrtmedia {
-namespace {
-
-/// Scatterings that take good dimensions of the sampler, as many as of camera paths.
-constexpr int kSampledScatterings = 8;
-/// After so many scatterings in one place free flights are far shorter than coordinates can tell; close to a
-/// boundary, heights above it are told far better (as in PathTracer).
-constexpr int kMostInPlace = 1024, kMostAtBoundary = 1 << 20;
-
-float largest(Rgb power) { return std::max(std::abs(power.max()), std::abs(power.min())); }
-
-}  // namespace
-
 void PhotonTracer::trace(Photons& out) {
   if (!leaveLight()) return;
   for (;;) {
     switch (flyToEvent()) {
-      case Event::End:
+      case PathEvent::End:
         return;
-      case Event::Surface:
+      case PathEvent::Surface:
         if (!scatterOnSurface(out)) return;
         break;
-      case Event::Medium:
+      case PathEvent::Medium:
         if (!scatterInMedium(out)) return;
         break;
     }
@@ -54,21 +40,17 @@ bool PhotonTracer::leaveLight() {
   hider_ = scene.hiderOf(choice.light);
   const PrimitiveId target = scene.lightTarget(choice.light);
   if (target.isValid()) rayStart_ = Exclusions(target);
-  strength_ = largest(power_);
-  if (setup_.media) state_ = stateAtLight(light, sample);
+  strength_ = largestChannel(power_);
+  if (setup_.media) state_ = stateAtLight(light);
   return !power_.isBlack();
 }
 
-/// What the first stretch of the ray lies in, told halfway to its end, off the surface that the light may be
-/// on. Light from infinity is dimmed by what is around the scene.
-MediumState PhotonTracer::stateAtLight(const Light& light, const LeSample& sample) {
+/// What the first stretch of the ray lies in. Light from infinity is dimmed by what is around the scene.
+MediumState PhotonTracer::stateAtLight(const Light& light) {
   const Scene& scene = setup_.scene;
   if (!scene.hasMediumBoundaries() && setup_.media->camera().state().isVacuum()) return {};
-  const std::optional<SceneHit> first = scene.closest(ray_, 0, rayStart_, counters_.rays);
-  const float half = first ? first->t() / 2 : std::max(1.0f, scene.largestCoordinate());
-  MediumState state = setup_.media->stateAt(sample.ray.at(half), setup_.time, counters_);
-  const bool isFromInfinity = light.isInfinite() || (light.isDelta() && !light.deltaPosition());
-  if (!isFromInfinity || state.isVacuum()) return state;
+  MediumState state = stateAtStart(*setup_.media, ray_, rayStart_, counters_);
+  if (!light.isAtInfinity() || state.isVacuum()) return state;
   Ray back = ray_;
   back.d = -ray_.d;
   MediumState end = state;
@@ -76,18 +58,17 @@ MediumState PhotonTracer::stateAtLight(const Light& light, const LeSample& sampl
   return state;
 }
 
-PhotonTracer::Event PhotonTracer::flyToEvent() {
+PathEvent PhotonTracer::flyToEvent() {
   MediaWalk walk(walkContext(), state_, LineWalk(setup_.scene, ray_, rayStart_), &from_);
   BoundaryPlane start = startPlane_;
   for (;;) {
-    leaveIfAbandoned();
     const SceneHit* const nearest = walk.ahead();
     if (!state_.isVacuum()) {
-      if (collides(walk, nearest, start)) return isFinite(medium_.at.p) ? Event::Medium : Event::End;
-      if (power_.isBlack()) return Event::End;
+      if (collides(walk, nearest, start)) return isFinite(medium_.at.p) ? PathEvent::Medium : PathEvent::End;
+      if (power_.isBlack()) return PathEvent::End;
     }
     const std::optional<SceneHit> hit = walk.next();
-    if (!hit || (scatterings_ == 0 && hit->isHider(hider_))) return Event::End;
+    if (!hit || (scatterings_ == 0 && hit->isHider(hider_))) return PathEvent::End;
     if (!hit->primitive->material && !setup_.media) {
       walk.cross(*hit);
       continue;
@@ -97,7 +78,7 @@ PhotonTracer::Event PhotonTracer::flyToEvent() {
       surface_ = {*hit, si, {}};
       if (setup_.media && setup_.scene.hasMediumBoundaries())
         surface_.coincident = walk.coincidentWith(*hit, si);
-      return Event::Surface;
+      return PathEvent::Surface;
     }
     start = planeAt(*hit, si, Vec3d(ray_.o) + walk.tEnd() * Vec3d(ray_.d), ray_.d, ray_.time);
     walk.cross(*hit, si);
@@ -120,10 +101,11 @@ bool PhotonTracer::scatterOnSurface(Photons& out) {
   SurfaceInteraction& si = surface_.si;
   const Bsdf bsdf =
       surface_.hit.primitive->material->bsdf(si, TransportMode::Importance, /*mergeSpecular=*/true);
-  constexpr BsdfFlags kDiffuse = BsdfFlags::Diffuse | BsdfFlags::Reflection | BsdfFlags::Transmission;
-  if (storesHere() && bsdf.count(kDiffuse) > 0) out.onSurfaces.push_back({si.p, si.wo, power_, scatterings_});
+  if (storesHere() && bsdf.count(BsdfFlags::AllDiffuse) > 0)
+    out.onSurfaces.push_back({{si.p, si.wo, power_, scatterings_}, absDot(si.wo, si.n)});
   if (!mayScatter()) return false;
-  const BsdfSample sample = bsdf.sample(si.wo, directionSample());
+  samples_.startVertex(scatterings_);
+  const BsdfSample sample = bsdf.sample(si.wo, samples_.get2D());
   if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
   power_ *= sample.f * (absDot(sample.wi, bsdf.shadingNormal()) / sample.pdf);
   if (power_.isBlack()) return false;
@@ -140,12 +122,12 @@ bool PhotonTracer::scatterInMedium(Photons& out) {
   ++counters_.mediumScatterings;
   if (storesHere()) out.inMedia.push_back({{medium_.at.p, -ray_.d, power_, scatterings_}, medium_.sigmaS});
   if (!mayScatter()) return false;
-  inPlace_ = medium_.at.p == ray_.o ? inPlace_ + 1 : 0;
-  if (inPlace_ > (medium_.at.near.isValid ? kMostAtBoundary : kMostInPlace)) {
+  if (inPlace_.isStuck(ray_.o, medium_.at)) {
     ++counters_.stuckPaths;
     return false;
   }
-  const PhaseFunction::Sample sample = medium_.phase->sample(-ray_.d, directionSample());
+  samples_.startVertex(scatterings_);
+  const PhaseFunction::Sample sample = medium_.phase->sample(-ray_.d, samples_.get2D());
   if (!(sample.value > 0)) return false;
   startSegment(medium_.at.p, sample.wi, medium_.at.near, {});
   from_ = medium_.at;
@@ -162,19 +144,13 @@ void PhotonTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plan
   ++scatterings_;
 }
 
-Point2f PhotonTracer::directionSample() {
-  if (scatterings_ < kSampledScatterings) return sampler_.get2D();
-  const float x = rng_.uniform();
-  return {x, rng_.uniform()};
-}
-
 bool PhotonTracer::playRoulette() {
-  const float survival = largest(power_) / strength_;
+  const float survival = largestChannel(power_) / strength_;
   if (survival < 1) {
     if (!(rng_.uniform() < survival)) return false;
     power_ /= survival;
   }
-  strength_ = largest(power_);
+  strength_ = largestChannel(power_);
   return true;
 }
 

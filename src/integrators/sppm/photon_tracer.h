@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "base/pixel_stream.h"
+#include "integrators/path/path_event.h"
+#include "integrators/path/path_samples.h"
 #include "integrators/sppm/photon.h"
 #include "lighting/light_selector.h"
 #include "lights/light.h"
 #include "media/phase/phase_function.h"
 #include "samplers/sampler.h"
-#include "world/coincident_surfaces.h"
 #include "world/media_walk.h"
 #include "world/scatter_point.h"
 
@@ -27,7 +28,7 @@ struct PhotonSetup {
 
 /// The photons of some light paths, in their order.
 struct Photons {
-  std::vector<Photon> onSurfaces;
+  std::vector<SurfacePhoton> onSurfaces;
   std::vector<MediumPhoton> inMedia;
 };
 
@@ -38,26 +39,20 @@ class PhotonTracer {
  public:
   /// `sampler`: started; gives the dimensions of the light and of the first scatterings, `rng` the rest.
   PhotonTracer(const PhotonSetup& setup, Sampler& sampler, Rng& rng, RenderCounters& counters)
-      : setup_(setup), sampler_(sampler), rng_(rng), counters_(counters) {}
+      : setup_(setup), sampler_(sampler), rng_(rng), samples_(sampler, rng), counters_(counters) {}
   /// Once.
   void trace(Photons& out);
 
  private:
-  struct SurfaceVertex {
-    SceneHit hit;
-    SurfaceInteraction si;
-    CoincidentSurfaces coincident;
-  };
   struct MediumVertex {
     ScatterPoint at;
     const PhaseFunction* phase;
     Rgb sigmaS;
   };
-  enum class Event { End, Surface, Medium };
 
   bool leaveLight();
-  MediumState stateAtLight(const Light& light, const LeSample& sample);
-  Event flyToEvent();
+  MediumState stateAtLight(const Light& light);
+  PathEvent flyToEvent();
   bool collides(const MediaWalk& walk, const SceneHit* nearest, const BoundaryPlane& start);
   bool scatterOnSurface(Photons& out);
   bool scatterInMedium(Photons& out);
@@ -65,12 +60,12 @@ class PhotonTracer {
   bool mayScatter() const { return scatterings_ < setup_.mostScatterings; }
   bool playRoulette();
   void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, const Exclusions& start);
-  Point2f directionSample();
   MediaWalk::Context walkContext() const { return {setup_.scene, setup_.media, counters_, counters_.rays}; }
 
   const PhotonSetup& setup_;
   Sampler& sampler_;
   Rng& rng_;
+  PathSamples samples_;  ///< as many good dimensions as camera paths take
   RenderCounters& counters_;
 
   Ray ray_;
@@ -82,7 +77,7 @@ class PhotonTracer {
   Rgb power_;
   float strength_ = 0;  ///< largest channel of the power where the ray starts
   int scatterings_ = 0;
-  int inPlace_ = 0;  ///< latest scatterings whose flights coordinates could not tell from none
+  ScatteringsInPlace inPlace_;
   SurfaceVertex surface_;
   MediumVertex medium_{};
 };

@@ -25,7 +25,7 @@ void PixelRadii::start(double radius) {
   }
 }
 
-PhotonGather::Radii PixelRadii::of(std::size_t pixel) const {
+PixelRadii::Radii PixelRadii::of(std::size_t pixel) const {
   const std::size_t i = pixel * kNumbers;
   return {static_cast<float>(std::sqrt(numbers_[i])), static_cast<float>(std::cbrt(numbers_[i + 2]))};
 }

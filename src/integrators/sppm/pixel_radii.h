@@ -19,7 +19,10 @@ class PixelRadii {
   explicit PixelRadii(std::span<double> numbers) : numbers_(numbers) {}
   /// All pixels before the first iteration.
   void start(double radius);
-  PhotonGather::Radii of(std::size_t pixel) const;
+  struct Radii {
+    float onSurfaces = 0, inMedia = 0;
+  };
+  Radii of(std::size_t pixel) const;
   /// Pixels in which nothing was found stay as they are.
   void shrink(std::size_t pixel, const PhotonGather::Found& found);
 

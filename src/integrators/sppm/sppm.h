@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "integrators/path/path.h"
+#include "integrators/sppm/kernel_schedule.h"
 #include "lighting/light_selector.h"
 #include "render/integrator.h"
 #include "singlescattering/single_scattering.h"
@@ -17,6 +18,8 @@ struct SppmParams {
   int maxDepth = 5;                                   ///< scatterings of camera and light path together
   std::optional<std::int64_t> photonsPerIteration{};  ///< light paths; nothing: as many as pixels
   float radius = 1;                                   ///< of the first iteration, world length, > 0
+  KernelShape kernel = KernelShape::Uniform;
+  KernelSchedule::Params schedule{};  ///< what is done about bias
 };
 
 /// Integrator `sppm`: stochastic progressive photon mapping (Hachisuka & Jensen 2009,
@@ -29,6 +32,10 @@ struct SppmParams {
 /// An iteration is a sample of each pixel: the radii that it takes are settled before, so the image is the
 /// mean of what iterations find, each with its own. All rays of an iteration are at the same time, so that
 /// photons meet what the camera sees.
+///
+/// With `schedule.debias` all pixels have the same kernels, which are known beforehand (KernelSchedule): then
+/// iterations do not depend on each other. Unbiased for Single and ProgressiveUnbiased, where samples may be
+/// negative.
 class SppmIntegrator final : public Integrator {
  public:
   /// `selector`: of Scene::illuminants(), for light samples; `photonSelector`: of Scene::lights(), the same
@@ -45,6 +52,7 @@ class SppmIntegrator final : public Integrator {
   class Iterations;
   /// Light paths can bring something that light samples do not.
   bool needsPhotons() const { return photonSelector_ && params_.maxDepth > 1; }
+  bool hasOwnRadii() const { return params_.schedule.debias == Debias::None; }
 
   SppmParams params_;
   PathParams pathParams_;
