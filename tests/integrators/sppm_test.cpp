@@ -165,8 +165,8 @@ TEST(SppmPhotons, OnTheNextFacetCountByItsCosine) {
   constexpr int kSteps = 1000;
   for (const bool second : {false, true}) {
     for (int i = 0; i < kSteps * kSteps; ++i) {
-      const double s = kRadius * 1.5 * (i % kSteps + .5) / kSteps;
-      const double y = kRadius * (2 * (i / kSteps + .5) / kSteps - 1);
+      const int column = i % kSteps, row = i / kSteps;
+      const double s = kRadius * 1.5 * (column + .5) / kSteps, y = kRadius * (2 * (row + .5) / kSteps - 1);
       const Vec3d p = second ? Vec3d(s * double{along.x}, y, s * double{along.z}) : Vec3d(-s, y, 0);
       if (lengthSquared(p - Vec3d(at)) > kRadius * kRadius) continue;
       const Vec3d d = Vec3d(lamp) - p;
