@@ -125,6 +125,7 @@ Options atItsValue(const Options& options) {
   checkOptions(options);
   const std::string& variable = options.derivative->variable;
   Diagnostics unseen;  // said again when the scene is read to be rendered
+  unseen.strict = options.strict;
   Variables variables;
   parseFiles(options.scenes, unseen, {.variables = options.variables, .variablesAfter = &variables});
   if (unseen.hasErrors()) return options;

@@ -129,11 +129,12 @@ void checkShareable(const Options& options) {
 }
 
 Outcome renderScenes(const Options& given, Together& together) {
-  const Options options =
-      together.step([&] { return atItsValue(together.isFirst() ? given : optionsOfOthers(given)); });
+  const Options options = together.step([&] {
+    if (!together.ranks().isAlone()) checkShareable(given);
+    return atItsValue(together.isFirst() ? given : optionsOfOthers(given));
+  });
   std::optional<Checkpoints> checkpoints;
   together.step([&] {
-    if (!together.ranks().isAlone()) checkShareable(options);
     if (together.isFirst()) checkFiles(options);
     checkpoints.emplace(options, together.isFirst());
   });
