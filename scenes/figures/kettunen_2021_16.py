@@ -12,7 +12,7 @@ FIGURE = Figure(
     settings="Our plume (308 kB), absorbing, optical depths up to about 8, before a white environment; one sample of a pixel for the error, 1024 for the bias, which is that of the mean image.",
     seconds=60)
 
-SETTINGS = {"jittered": {"estimator": "biased-ray-marching", "comb": "stratified"}, "one offset": {"estimator": "biased-ray-marching", "comb": "equidistant"}}
+SETTINGS = {"jittered": {"estimator": "biased-ray-marching", "--mediumparams": '"string comb" "stratified"'}, "one offset": {"estimator": "biased-ray-marching", "--mediumparams": '"string comb" "equidistant"'}}
 FILES = ["../data/plume.nvdb"]
 
 
