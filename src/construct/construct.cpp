@@ -156,8 +156,8 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
     made.scene = world.build(integrator->rendersMedia);
     if (integrator->tracesFromLights) {
       made.scene->prepareEmission();
-      world.warnOfTurningStrands(scene.integrator.location, "Integrator \"" + scene.integrator.type + '"',
-                                 integrator->weighsBothEnds);
+      world.warnOfCurves(scene.integrator.location, "Integrator \"" + scene.integrator.type + '"',
+                         integrator->weighsBothEnds);
     }
     CameraMedium cameraMedium;
     if (integrator->rendersMedia) {

@@ -115,23 +115,24 @@ WorldBuilder::ShapeRead WorldBuilder::readShape(ShapeDescription& shape, Diagnos
   return read;
 }
 
-void WorldBuilder::warnOfTurningStrands(const SourceLocation& at, const std::string& context,
-                                        bool toldApart) const {
+/// How much of a curve rays meet from a side is not what a surface with its normals there would have: a
+/// ribbon narrows with its inclination to the ray besides the cosine of its normal. The adjoint of hair knows
+/// what turns to rays.
+void WorldBuilder::warnOfCurves(const SourceLocation& at, const std::string& context,
+                                bool weighsBothEnds) const {
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     const std::optional<ShapePlan>& plan = shapes_[i].plan;
     const ShapeDescription& shape = scene_.shapes[i];
-    if (!plan || !plan->strands || !turnsToRays(plan->strands->type) || !isUsed(shape)) continue;
-    if (shapes_[i].material.isNone) continue;
+    if (!plan || !plan->strands || !isUsed(shape) || shapes_[i].material.isNone) continue;
     const bool isHair =
         shape.material != kNone && scene_.materials[static_cast<std::size_t>(shape.material)].type == "hair";
-    if (isHair && !toldApart) continue;
+    if (isHair && turnsToRays(plan->strands->type) && !weighsBothEnds) continue;
     diagnostics_.warning(
         at,
-        context + ": curves of type flat and cylinder turn to the ray that meets them, as at " +
+        context + ": curves have no thickness and face the rays that meet them, as at " +
             shape.location.toString() +
-            ", so that paths from lights find other surfaces than paths from the camera: light that these "
-            "curves scatter may be too bright or too dark, as in PBRT-v3; \"volpath\" renders them, and "
-            "curves of type ribbon are the same from both ends");
+            ", so paths from lights find other surfaces there than paths from the camera: light that curves "
+            "scatter may be some percent too bright or too dark, as in PBRT-v3; \"volpath\" renders them");
     return;
   }
 }

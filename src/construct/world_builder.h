@@ -41,10 +41,9 @@ class WorldBuilder {
   /// lie outside of all their boundaries.
   void warnOfUnseenMedia(const CameraMedium& camera, const std::vector<const Medium*>& unreached,
                          Diagnostics& diagnostics) const;
-  /// Warns at `at` of strands that turn to each ray (SurfaceInteraction::turnsToRays), where the integrator
-  /// of `context` traces paths from lights. `toldApart`: it weighs by densities what paths from both ends
-  /// find.
-  void warnOfTurningStrands(const SourceLocation& at, const std::string& context, bool toldApart) const;
+  /// Warns at `at` of curves, where the integrator of `context` traces paths from lights. `weighsBothEnds`:
+  /// as IntegratorPlan.
+  void warnOfCurves(const SourceLocation& at, const std::string& context, bool weighsBothEnds) const;
   std::vector<std::string> report() const { return report_; }
 
  private:

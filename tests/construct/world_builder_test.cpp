@@ -97,7 +97,7 @@ TEST(ConstructWorld, SaysThatPathsFromLightsFindOtherCurves) {
                             "\" \"point P\" [ -1 0 0 -.3 0 .2 .3 0 0 1 0 0 ]" + normals,
                         {}, "Integrator \"" + integrator + "\"");
   };
-  const std::string told = "turn to the ray that meets them", matte = "Material \"matte\"",
+  const std::string told = "curves have no thickness", matte = "Material \"matte\"",
                     hair = "Material \"hair\"";
   for (const std::string type : {"flat", "cylinder"}) {
     EXPECT_TRUE(attemptOf("bdpt", matte, type).warns(told));
@@ -107,7 +107,11 @@ TEST(ConstructWorld, SaysThatPathsFromLightsFindOtherCurves) {
     EXPECT_TRUE(attemptOf("volpath", matte, type).isSilent());
     EXPECT_FALSE(attemptOf("bdpt", "Material \"none\"", type).warns(told));
   }
-  EXPECT_TRUE(attemptOf("bdpt", matte, "ribbon").isSilent());
+  for (const std::string integrator : {"bdpt", "mlt", "sppm"}) {
+    EXPECT_TRUE(attemptOf(integrator, matte, "ribbon").warns(told));
+    EXPECT_TRUE(attemptOf(integrator, hair, "ribbon").warns(told));
+  }
+  EXPECT_TRUE(attemptOf("volpath", hair, "ribbon").isSilent());
 }
 
 TEST(ConstructWorld, InstancesAndMovingCurvesAreTheCurves) {

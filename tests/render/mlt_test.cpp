@@ -191,17 +191,6 @@ TEST(Mlt, IsBlackWhereThereIsNoLight) {
   EXPECT_EQ(imageMean(renderText(text).image), 0);
 }
 
-double squaredDistance(const Image& a, const Image& b) {
-  double sum = 0;
-  for (int y = 0; y < a.height(); ++y) {
-    for (int x = 0; x < a.width(); ++x) {
-      const Rgb d = a.rgb(x, y) - b.rgb(x, y);
-      sum += double{d.r} * double{d.r} + double{d.g} * double{d.g} + double{d.b} * double{d.b};
-    }
-  }
-  return sum;
-}
-
 /// A quarter of the mutations that PBRT-v3's image has, of which we must not have more noise than they would
 /// have. The truth is the image of its path tracer, of the same room: its own of `mlt` is 0.6 % too dark.
 TEST(MltParity, IsNoFurtherFromTheTruthThanPbrts) {

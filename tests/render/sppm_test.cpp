@@ -156,17 +156,6 @@ INSTANTIATE_TEST_SUITE_P(
                   ""}),
     [](const auto& value) { return std::string(value.param.name); });
 
-double squaredDistance(const Image& a, const Image& b) {
-  double sum = 0;
-  for (int y = 0; y < a.height(); ++y) {
-    for (int x = 0; x < a.width(); ++x) {
-      const Rgb d = a.rgb(x, y) - b.rgb(x, y);
-      sum += double{d.r} * double{d.r} + double{d.g} * double{d.g} + double{d.b} * double{d.b};
-    }
-  }
-  return sum;
-}
-
 /// As many iterations and photons as PBRT-v3's image has. The truth is its path tracer's, of the same room:
 /// what either lacks of it is noise and blur, of which we must not have more.
 TEST(SppmParity, IsNoFurtherFromTheTruthThanPbrts) {

@@ -12,6 +12,18 @@
 
 namespace pbrtmedia::test {
 
+/// Sum over pixels and channels.
+inline double squaredDistance(const Image& a, const Image& b) {
+  double sum = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      const Rgb d = a.rgb(x, y) - b.rgb(x, y);
+      sum += double{d.r} * double{d.r} + double{d.g} * double{d.g} + double{d.b} * double{d.b};
+    }
+  }
+  return sum;
+}
+
 /// How far a reference and the mean of independent renders are apart, pixel by pixel.
 struct PixelDistance {
   double squared = 0;   ///< sum over pixels and channels
