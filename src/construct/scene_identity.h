@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,9 @@ struct SceneIdentity {
     std::uint64_t content;  ///< hash of its bytes, packed as they are
     bool operator==(const File&) const = default;
   };
-  std::uint64_t text = 0;      ///< all text read, with its includes and the spectra read from files
-  std::string mediumParams{};  ///< of the command line, as typed
+  std::uint64_t text = 0;  ///< all text read, with its includes and the spectra read from files
+  std::vector<Variables::Used> variables{};
+  std::string mediumParams{};  ///< of the command line, by values (textOf)
   std::vector<File> files{};   ///< volumes, meshes, images, ..., by name
   std::string derivative{};    ///< of which the image is; "": it is that of the scene
 
@@ -26,10 +28,19 @@ struct SceneIdentity {
   std::uint64_t hash() const;
 };
 
-/// The identity of a description that construct() has not taken apart yet. Reads every file that a parameter
-/// of a medium, texture, material, light or shape names, or one of `mediumParams` (`mediumText` parsed):
-/// about as fast as the disk delivers. A file that is not there is left out, as construct() will complain.
-SceneIdentity identify(const SceneDescription& scene, const std::string& mediumText,
-                       const ParamList& mediumParams);
+/// A file that a parameter names.
+struct NamedFile {
+  std::string name;  ///< as the parameter spells it
+  std::filesystem::path path;
+  SourceLocation at;  ///< of the name
+};
+
+/// The files, there are, that parameters of the camera, a medium, texture, material, light or shape name, or
+/// one of `mediumParams`; each once. A description that construct() has not taken apart yet.
+std::vector<NamedFile> namedFiles(const SceneDescription& scene, const ParamList& mediumParams);
+
+/// The identity of such a description. Reads all its namedFiles(), about as fast as the disk delivers. A file
+/// that is not there is left out, as construct() will complain.
+SceneIdentity identify(const SceneDescription& scene, const ParamList& mediumParams);
 
 }  // namespace pbrtmedia

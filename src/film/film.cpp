@@ -190,47 +190,72 @@ Image Film::develop() const {
   Image image(pixelBounds_.width(), pixelBounds_.height(), names);
   image.dataWindow = pixelBounds_;
   image.displayWindow = {{0, 0}, settings_.resolution};
-  const double perSplat =
-      state_.splatPaths > 0 ? state_.splatArea / static_cast<double>(state_.splatPaths) : 0;
   const Development development = this->development();
   std::size_t i = 0;
   for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x, ++i) {
-      const Sums& s = state_.sums[i];
-      const SplatSum splats = state_.splats.empty() ? SplatSum{} : state_.splats[i];
-      const auto mean = [&](double sum) { return s.weight != 0 ? sum / s.weight : 0; };
-      image.setRgb(x, y,
-                   {development.value(mean(s.r) + splats.r * perSplat),
-                    development.value(mean(s.g) + splats.g * perSplat),
-                    development.value(mean(s.b) + splats.b * perSplat)});
-      if (layers.isEmpty()) continue;
-      developLayers(layers, std::span(state_.layers).subspan(i * layers.sumCount(), layers.sumCount()), s,
-                    development, &image.at(x, y, 3));
-    }
+    for (int x = 0; x < image.width(); ++x, ++i)
+      developPixel(partsOf(i), layers, state_.paths, development, &image.at(x, y, 0));
   }
   return image;
+}
+
+PixelParts Film::partsOf(std::size_t pixel) const {
+  const std::size_t layerSums = settings_.layers.sumCount();
+  const auto splatsOf = [&](const std::vector<SplatSum>& all) {
+    return all.empty() ? SplatSum{} : all[pixel];
+  };
+  return {state_.sums[pixel], std::span(state_.layers).subspan(pixel * layerSums, layerSums),
+          splatsOf(state_.splats), splatsOf(state_.splatSquares)};
+}
+
+std::vector<double> Film::otherSums() const {
+  const OtherSums order(settings_.layers, !state_.splats.empty());
+  std::vector<double> others;
+  others.reserve(state_.sums.size() * order.count());
+  for (std::size_t pixel = 0; pixel < state_.sums.size(); ++pixel) order.append(partsOf(pixel), others);
+  return others;
 }
 
 void Film::keepHalves() {
   if (!hasHalves()) state_.odd.resize(state_.sums.size());
 }
 
+SplatSum Film::estimatedError(std::size_t pixel) const {
+  SplatSum error;
+  const Sums &all = state_.sums[pixel], &odd = state_.odd[pixel];
+  const double even = all.weight - odd.weight;
+  if (const double product = even * odd.weight; product != 0) {
+    // Filters with negative lobes may give a half a negative weight; the halves are then taken as equal.
+    const double scale = product > 0 ? std::sqrt(product) / all.weight : .5;
+    const auto ofSamples = [&](double sum, double ofOdd) {
+      return ((sum - ofOdd) / even - ofOdd / odd.weight) * scale;
+    };
+    error = {ofSamples(all.r, odd.r), ofSamples(all.g, odd.g), ofSamples(all.b, odd.b)};
+  }
+  const auto paths = static_cast<double>(state_.paths.count), oddPaths = static_cast<double>(state_.oddPaths),
+             evenPaths = paths - oddPaths;
+  if (state_.oddSplats.empty() || oddPaths == 0 || evenPaths == 0) return error;
+  const SplatSum &splats = state_.splats[pixel], &oddSplats = state_.oddSplats[pixel];
+  const double scale = std::sqrt(evenPaths * oddPaths) / paths * state_.paths.area;
+  const auto ofSplats = [&](double sum, double ofOdd) {
+    return ((sum - ofOdd) / evenPaths - ofOdd / oddPaths) * scale;
+  };
+  error +=
+      {ofSplats(splats.r, oddSplats.r), ofSplats(splats.g, oddSplats.g), ofSplats(splats.b, oddSplats.b)};
+  return error;
+}
+
 Image Film::surrogateReference() const {
   CHECK(hasHalves());
   Image image = develop();
+  const auto scaled = [&](double error) {
+    return static_cast<float>(error * static_cast<double>(settings_.scale));
+  };
   std::size_t i = 0;
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x, ++i) {
-      const Sums &all = state_.sums[i], &odd = state_.odd[i];
-      const double even = all.weight - odd.weight, product = even * odd.weight;
-      if (product == 0) continue;
-      // Filters with negative lobes may give a half a negative weight; the halves are then taken as equal.
-      const double scale = settings_.scale * (product > 0 ? std::sqrt(product) / all.weight : .5);
-      const auto error = [&](double sum, double ofOdd) {
-        return static_cast<float>(((sum - ofOdd) / even - ofOdd / odd.weight) * scale);
-      };
-      image.setRgb(x, y,
-                   image.rgb(x, y) - Rgb(error(all.r, odd.r), error(all.g, odd.g), error(all.b, odd.b)));
+      const SplatSum error = estimatedError(i);
+      image.setRgb(x, y, image.rgb(x, y) - Rgb(scaled(error.r), scaled(error.g), scaled(error.b)));
     }
   }
   return image;
@@ -250,8 +275,14 @@ Film::State Film::rows(int first, int end) const {
     return std::remove_cvref_t<decltype(all)>(all.begin() + (first - pixelBounds_.min.y) * perRow,
                                               all.begin() + (end - pixelBounds_.min.y) * perRow);
   };
-  return {part(state_.sums, 1),   part(state_.odd, 1), part(state_.layers, settings_.layers.sumCount()),
-          part(state_.splats, 1), state_.splatPaths,   state_.splatArea};
+  return {part(state_.sums, 1),
+          part(state_.odd, 1),
+          part(state_.layers, settings_.layers.sumCount()),
+          part(state_.splats, 1),
+          part(state_.oddSplats, 1),
+          part(state_.splatSquares, 1),
+          state_.paths,
+          state_.oddPaths};
 }
 
 bool Film::setRows(int first, int end, const State& rows) {
@@ -262,7 +293,8 @@ bool Film::setRows(int first, int end, const State& rows) {
   };
   const std::size_t layerSums = settings_.layers.sumCount();
   if (!fits(rows.sums, state_.sums, 1) || !fits(rows.odd, state_.odd, 1) ||
-      !fits(rows.layers, state_.layers, layerSums) || !fits(rows.splats, state_.splats, 1))
+      !fits(rows.layers, state_.layers, layerSums) || !fits(rows.splats, state_.splats, 1) ||
+      !fits(rows.oddSplats, state_.oddSplats, 1) || !fits(rows.splatSquares, state_.splatSquares, 1))
     return false;
   const auto offset = static_cast<std::ptrdiff_t>(first - pixelBounds_.min.y) * pixelBounds_.width();
   const auto place = [&](const auto& part, auto& all, std::size_t perPixel) {
@@ -273,6 +305,8 @@ bool Film::setRows(int first, int end, const State& rows) {
   place(rows.odd, state_.odd, 1);
   place(rows.layers, state_.layers, layerSums);
   place(rows.splats, state_.splats, 1);
+  place(rows.oddSplats, state_.oddSplats, 1);
+  place(rows.splatSquares, state_.splatSquares, 1);
   return true;
 }
 
@@ -281,7 +315,12 @@ bool Film::restore(State state) {
   if (state.sums.size() != pixels || state.layers.size() != state_.layers.size() ||
       state.odd.size() != state_.odd.size())
     return false;
-  if (!state.splats.empty() && state.splats.size() != pixels) return false;
+  const auto fits = [&](const std::vector<SplatSum>& sums, bool isKept) {
+    return sums.size() == (isKept && !state.splats.empty() ? pixels : 0);
+  };
+  if (!fits(state.splats, true) || !fits(state.oddSplats, hasHalves()) ||
+      !fits(state.splatSquares, settings_.layers.has(Layer::Variance)))
+    return false;
   state_ = std::move(state);
   return true;
 }

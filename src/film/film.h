@@ -9,10 +9,12 @@
 #include "base/statistics.h"
 #include "film/filter_table.h"
 #include "film/layers.h"
+#include "film/pixel_sums.h"
 #include "film/sample_pass.h"
 #include "film/splat_buffer.h"
 #include "filters/filter.h"
 #include "image/image.h"
+#include "image/splat_sums.h"
 #include "image/weighted_sums.h"
 #include "spectrum/rgb.h"
 
@@ -34,19 +36,16 @@ class Film {
   };
   /// Of the samples of one pixel.
   using Sums = WeightedSums;
-  /// Of splats, in double; they have no weights.
-  struct SplatSum {
-    double r = 0, g = 0, b = 0;
-    bool operator==(const SplatSum&) const = default;
-  };
   /// Everything the film remembers, row by row over `pixelBounds`.
   struct State {
     std::vector<Sums> sums;
-    std::vector<Sums> odd;         ///< of samples of odd index alone; empty unless halves are kept
-    std::vector<double> layers;    ///< LayerSet::sumCount of them a pixel; empty without layers
-    std::vector<SplatSum> splats;  ///< empty before the first one
-    std::uint64_t splatPaths = 0;  ///< a whole number, as sums of it depend on no grouping
-    double splatArea = 0;          ///< pixels over which the paths spread
+    std::vector<Sums> odd;               ///< of samples of odd index alone; empty unless halves are kept
+    std::vector<double> layers;          ///< LayerSet::sumCount of them a pixel; empty without layers
+    std::vector<SplatSum> splats;        ///< empty before the first one; so are the next two
+    std::vector<SplatSum> oddSplats;     ///< of samples of odd index alone; empty unless halves are kept
+    std::vector<SplatSum> splatSquares;  ///< of what each path brings; empty without Layer::Variance
+    SplatPaths paths;                    ///< of all splats
+    std::uint64_t oddPaths = 0;          ///< of samples of odd index
     bool operator==(const State&) const = default;
   };
 
@@ -84,18 +83,19 @@ class Film {
   void accumulate(const SamplePass& pass);
   /// Adds splats, each with the filter's weights over the filter's integral, in their order: for each pixel
   /// the sum is the same whatever the units of work, if the orders are. `paths`: how many light paths or
-  /// mutations they are of, which spread over `area` pixels, the same in each call: a splat of value L from
-  /// each, evenly over these pixels, makes them L. A pixel is the mean of its samples plus its splats.
-  /// Parallel over rows.
-  void addSplats(std::span<const SplatBuffer> units, std::uint64_t paths, double area);
+  /// mutations they are of, which spread over the same area in each call: a splat of value L from each,
+  /// evenly over these pixels, makes them L. `oddPaths`: how many of them are of samples of odd index; wanted
+  /// where halves are kept. All splats of a path come in one call. A pixel is the mean of its samples plus
+  /// its splats. Parallel over rows.
+  void addSplats(std::span<const SplatBuffer> units, const SplatPaths& paths, std::uint64_t oddPaths = 0);
   /// Current image: normalised, negative values at 0 unless they are kept, scaled. Data and display windows
   /// are set. Layers follow the colour (film/layer_sums.h).
   Image develop() const;
 
   /// The image less an estimate of its error from its halves, without clamping: with A and B the means of the
   /// samples of even and of odd index, of weights a and b, (A - B) sqrt(a b) / (a + b) has the variance of
-  /// the error if samples are independent. Compared with this the image is as wrong as with the truth, but
-  /// for bias. Only when halves are kept; splats have none, and count as exact.
+  /// the error if samples are independent. Splats bring the same of the light paths of these samples.
+  /// Compared with this the image is as wrong as with the truth, but for bias. Only when halves are kept.
   Image surrogateReference() const;
 
   /// Rows of pixels that a sample reaches: those from the row of its pixel - lastNeighbour to that -
@@ -108,6 +108,9 @@ class Film {
   /// Puts such a part, of a film like this one, in its place. False, changing nothing, when it is none.
   bool setRows(int first, int end, const State& rows);
 
+  /// The sums besides those of the colour, pixel by pixel (OtherSums).
+  std::vector<double> otherSums() const;
+
   /// For checkpoints, and back: false, changing nothing, for a state of another film.
   const State& state() const { return state_; }
   bool restore(State state);
@@ -117,6 +120,14 @@ class Film {
   void accumulateRow(const SamplePass& pass, int y, int firstSlot, int step, std::vector<Sums>& sums) const;
   void accumulateLayersOfRow(const SamplePass& pass, int y);
   void addSplatsToRows(std::span<const Splat* const> splats, int firstRow, int lastRow);
+  /// Adds the squares of what each path brings; the splats of a path stand side by side.
+  void addSquaresToRows(std::span<const Splat* const> splats, int firstRow, int lastRow);
+  /// Calls visit(index of the pixel, weight) for the pixels of these rows that a splat reaches.
+  template <class Visit>
+  void visitReached(const Splat& splat, int firstRow, int lastRow, const Visit& visit) const;
+  /// The error that surrogateReference() takes from a pixel, unscaled.
+  SplatSum estimatedError(std::size_t pixel) const;
+  PixelParts partsOf(std::size_t pixel) const;
 
   Settings settings_;
   bool keepsNegatives_ = false;

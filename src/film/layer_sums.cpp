@@ -69,7 +69,7 @@ void addOwn(const LayerSet& set, const float* sample, double* sums) {
 }
 
 void developLayers(const LayerSet& set, std::span<const double> all, const WeightedSums& colour,
-                   const Development& development, float* out) {
+                   const SplatSum& splatVariance, const Development& development, float* out) {
   const double* sums = all.data();
   const auto scale = static_cast<double>(development.scale);
   const auto ratio = [](double sum, double weight) { return weight != 0 ? sum / weight : 0; };
@@ -91,7 +91,9 @@ void developLayers(const LayerSet& set, std::span<const double> all, const Weigh
           break;
         case LayerKind::Variance: {
           const double sum = c == 0 ? colour.r : c == 1 ? colour.g : colour.b;
-          *out = static_cast<float>(varianceOfMean(sums, c, sum, colour.weight) * scale * scale);
+          const double ofSplats = c == 0 ? splatVariance.r : c == 1 ? splatVariance.g : splatVariance.b;
+          const double variance = varianceOfMean(sums, c, sum, colour.weight) + ofSplats;
+          *out = static_cast<float>(variance * scale * scale);
           break;
         }
       }

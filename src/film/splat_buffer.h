@@ -15,16 +15,20 @@ namespace pbrtmedia {
 struct Splat {
   Point2f film;  ///< raster position, pixels
   Rgb value;
-  std::uint64_t order = 0;  ///< in which Film::addSplats sums
+  bool isOdd = false;       ///< of a sample of odd index, or of an odd chain
+  std::uint64_t order = 0;  ///< in which Film::addSplats sums; each path has one of its own
 };
 
 /// The splats of one unit of work (a tile, a chain). One thread writes.
 class SplatBuffer {
  public:
   /// What is added from now on is of the sample (or mutation) that stands at `order` among those of all
-  /// units; no other unit has it.
-  void begin(std::uint64_t order) { order_ = order; }
-  void add(Point2f film, Rgb value) { splats_.push_back({film, value, order_}); }
+  /// units; no other unit has it. `isOdd`: its index is odd.
+  void begin(std::uint64_t order, bool isOdd = false) {
+    order_ = order;
+    isOdd_ = isOdd;
+  }
+  void add(Point2f film, Rgb value) { splats_.push_back({film, value, isOdd_, order_}); }
   std::size_t size() const { return splats_.size(); }
   std::span<const Splat> splats() const { return splats_; }
   /// Takes out those from number `from` on for whose value `isBad` holds; it may change the value.
@@ -43,6 +47,7 @@ class SplatBuffer {
 
  private:
   std::uint64_t order_ = 0;
+  bool isOdd_ = false;
   std::vector<Splat> splats_;
 };
 

@@ -12,7 +12,7 @@
 namespace pbrtmedia {
 namespace {
 
-constexpr std::string_view kMagic = "pbrt-media checkpoint ", kVersion = "1\n";
+constexpr std::string_view kMagic = "pbrt-media checkpoint ", kVersion = "2\n";
 constexpr std::size_t kHashBytes = sizeof(std::uint64_t);
 
 /// As it grows while blocks of ByteWriter::kBlock are written.
@@ -86,7 +86,7 @@ Checkpoint Checkpoint::read(const std::filesystem::path& path) {
   if (text.substr(kMagic.size(), kVersion.size()) != kVersion) {
     refuse("version " +
            std::string(text.substr(kMagic.size(), text.find('\n') - kMagic.size())).substr(0, 16) +
-           ", expected 1");
+           ", expected 2");
   }
   const std::string_view content = text.substr(0, text.size() - std::min(text.size(), kHashBytes));
   if (ByteReader(text.substr(content.size())).left() < kHashBytes ||

@@ -46,8 +46,9 @@ std::string textOf(const Bounds2i& b) {
 std::vector<ImageCause> causesOf(const SceneIdentity& identity, const Construction& scene,
                                  const Options& options) {
   const Film& film = *scene.film;
-  std::vector<ImageCause> causes = {{"the text of the scene", hashed(identity.text)},
-                                    {"--mediumparams", identity.mediumParams}};
+  std::vector<ImageCause> causes = {{"the text of the scene", hashed(identity.text)}};
+  for (const auto& [name, value] : identity.variables) causes.push_back({'$' + name, value});
+  causes.push_back({"--mediumparams", identity.mediumParams});
   for (const SceneIdentity::File& file : identity.files)
     causes.push_back({"the content of \"" + file.name + '"', hashed(file.content)});
   causes.push_back({"--seed", std::to_string(options.seed)});
@@ -198,7 +199,10 @@ void Checkpoints::restore(const Construction& scene) {
       static_cast<std::uint64_t>(result.completedSamplesPerPixel) != then.samplesDone ||
       then.samplesDone > head_.samplesPerPixel)
     refuse(option + ": the file is corrupt");
-  if (!scene.film->hasHalves()) start_->film.odd.clear();
+  if (!scene.film->hasHalves()) {
+    start_->film.odd.clear();
+    start_->film.oddSplats.clear();
+  }
   if (scene.film->hasHalves() && start_->film.odd.empty()) {
     refuse(option +
            ": it was rendered without --error and without a --convergence of its own, and does not "

@@ -11,6 +11,7 @@
 #include "image/codecs.h"
 #include "media/medium.h"
 #include "render/difference_integrator.h"
+#include "scene/param_text.h"
 #include "scene/parser.h"
 
 namespace pbrtmedia {
@@ -126,8 +127,9 @@ Options atItsValue(const Options& options) {
   const std::string& variable = options.derivative->variable;
   Diagnostics unseen;  // said again when the scene is read to be rendered
   unseen.strict = options.strict;
-  Variables variables;
-  parseFiles(options.scenes, unseen, {.variables = options.variables, .variablesAfter = &variables});
+  Variables given = options.variables, variables;
+  parseParams(options.mediumParams, "--mediumparams", given, unseen);
+  parseFiles(options.scenes, unseen, {.variables = given, .variablesAfter = &variables});
   if (unseen.hasErrors()) return options;
   const std::vector<std::string_view> names = variables.names();
   if (std::find(names.begin(), names.end(), variable) == names.end())

@@ -31,6 +31,9 @@ Image cutOut(const Image& image, Bounds2i wanted) {
 
 std::optional<ErrorSummary> estimatedError(const Film& film, Bounds2i pixels, const RenderResult& result) {
   if (!film.hasHalves() || result.samplesTaken < 2 * result.pixelsTotal) return std::nullopt;
+  const Film::State& sums = film.state();
+  const bool isOneHalf = sums.oddPaths == 0 || sums.oddPaths == sums.paths.count;
+  if (sums.paths.count > 0 && isOneHalf) return std::nullopt;  // a single chain
   const auto difference =
       compareImages(cutOut(film.develop(), pixels), cutOut(film.surrogateReference(), pixels));
   return std::get<ImageDifference>(difference).total;

@@ -32,6 +32,10 @@ void addIdentity(Image& image, const SceneIdentity& identity) {
   image.metadata["sceneHash"] = hexadecimal(identity.hash());
   image.metadata["sceneText"] = hexadecimal(identity.text);
   if (!identity.derivative.empty()) image.metadata["derivative"] = identity.derivative;
+  std::string variables;
+  for (const auto& [name, value] : identity.variables)
+    variables += (variables.empty() ? "" : "\n") + name + ' ' + value;
+  if (!variables.empty()) image.metadata["sceneVariables"] = variables;
   if (!identity.mediumParams.empty()) image.metadata["mediumParams"] = identity.mediumParams;
   // A header is no place for thousands of names.
   constexpr std::size_t kMostFiles = 64;

@@ -282,7 +282,7 @@ void OptionList::addChecks() {
           "--strict", options_.strict,
           "what PBRT-v3 renders in spite of a mistake is an error; "
           "exit with 2 when samples were dropped or a density bound was violated, with 3 when the image "
-          "has fewer samples than planned")
+          "has fewer samples than planned; of several worlds or frames the worst counts: 1, 2, 3, 0")
       ->group(kChecks);
 }
 

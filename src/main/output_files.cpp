@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "base/writable.h"
+#include "construct/scene_identity.h"
 
 namespace pbrtmedia {
 namespace {
@@ -22,6 +24,57 @@ std::pair<std::string, SourceLocation> namedOutput(const SceneDescription& world
   const Param* name = world.film.params.find(ParamKind::String, "filename");
   if (name == nullptr || name->size() != 1) return {"pbrt.exr", world.worldBegin};
   return {std::get<std::vector<std::string>>(name->values).front(), name->valuesAt};
+}
+
+/// A file, and what for.
+struct FileUse {
+  std::string use;
+  fs::path file;
+};
+constexpr const char *kResume = "--resume", *kCheckpoint = "--checkpoint";
+
+fs::path withoutLinks(const fs::path& file) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(file, ignored), ignored);
+}
+
+/// Files that the run writes.
+std::vector<FileUse> outputsOf(const std::vector<SceneDescription>& worlds, const Options& options) {
+  std::vector<FileUse> files;
+  for (const SceneDescription& world : worlds) {
+    files.push_back({"the image", options.outfile.value_or(namedOutput(world).first)});
+    if (!options.png) continue;
+    files.push_back(files.back());
+    files.back().file.replace_extension(".png");
+  }
+  const std::pair<const char*, const std::optional<fs::path>*> more[] = {
+      {"--stats", &options.statsFile},
+      {"--convergence", &options.convergence},
+      {"--bounds-cache", &options.boundsCache},
+      {kCheckpoint, &options.checkpoint}};
+  for (const auto& [use, file] : more) {
+    if (*file) files.push_back({use, **file});
+  }
+  return files;
+}
+
+/// What files are read for, by their paths without links.
+std::map<fs::path, std::string> usesOfInputs(const std::vector<SceneDescription>& worlds,
+                                             const ParamList& mediumParams, const Options& options) {
+  std::map<fs::path, std::string> uses;
+  for (const fs::path& scene : options.scenes) {
+    if (scene != "-") uses.emplace(withoutLinks(scene), "the scene");
+  }
+  if (options.reference) uses.emplace(withoutLinks(*options.reference), "--reference");
+  if (options.resume) uses.emplace(withoutLinks(*options.resume), kResume);
+  for (const SceneDescription& world : worlds) {
+    if (world.files) {
+      for (const fs::path& file : *world.files) uses.emplace(withoutLinks(file), "an Include or a spectrum");
+    }
+    for (const NamedFile& file : namedFiles(world, mediumParams))
+      uses.emplace(withoutLinks(file.path), "a parameter (" + file.at.toString() + ')');
+  }
+  return uses;
 }
 
 }  // namespace
@@ -55,34 +108,22 @@ void reportSharedOutputs(const std::vector<SceneDescription>& worlds, const Opti
   }
 }
 
-void reportLostFiles(const std::vector<SceneDescription>& worlds, const Options& options,
-                     Diagnostics& diagnostics) {
-  const std::string image = "the image", resume = "--resume", checkpoint = "--checkpoint";
-  std::vector<std::pair<std::string, std::optional<fs::path>>> files;
-  for (const fs::path& scene : options.scenes) {
-    if (scene != "-") files.emplace_back("the scene", scene);
-  }
-  files.insert(files.end(), {{"--reference", options.reference}, {resume, options.resume}});
-  const std::size_t read = files.size();
-  for (const SceneDescription& world : worlds) {
-    files.emplace_back(image, options.outfile.value_or(namedOutput(world).first));
-    if (!options.png) continue;
-    files.push_back(files.back());
-    files.back().second->replace_extension(".png");
-  }
-  files.insert(files.end(), {{"--stats", options.statsFile},
-                             {"--convergence", options.convergence},
-                             {"--bounds-cache", options.boundsCache},
-                             {checkpoint, options.checkpoint}});
+void reportLostFiles(const std::vector<SceneDescription>& worlds, const ParamList& mediumParams,
+                     const Options& options, Diagnostics& diagnostics) {
+  const std::vector<FileUse> outputs = outputsOf(worlds, options);
+  std::error_code ignored;
+  // Where none of them is there yet, none is read, and nobody need look for what is.
+  const bool isAnyThere = std::any_of(outputs.begin(), outputs.end(), [&](const FileUse& output) {
+    return fs::is_regular_file(output.file, ignored);
+  });
   std::map<fs::path, std::string> uses;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const auto& [use, file] = files[i];
-    std::error_code ignored;
-    if (!file || (fs::exists(*file, ignored) && !fs::is_regular_file(*file, ignored))) continue;
-    const auto [first, isNew] =
-        uses.try_emplace(fs::weakly_canonical(fs::absolute(*file, ignored), ignored), use);
-    if (isNew || i < read || first->second == use || (first->second == resume && use == checkpoint)) continue;
-    diagnostics.error({}, use + " \"" + file->string() + "\" is the file of " + first->second +
+  if (isAnyThere) uses = usesOfInputs(worlds, mediumParams, options);
+  for (const auto& [use, file] : outputs) {
+    if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) continue;
+    const auto [first, isNew] = uses.try_emplace(withoutLinks(file), use);
+    const bool goesOn = first->second == kResume && use == kCheckpoint;
+    if (isNew || first->second == use || goesOn) continue;
+    diagnostics.error({}, use + " \"" + file.string() + "\" is the file of " + first->second +
                               " too, and would be written over it; give each a name of its own");
   }
 }

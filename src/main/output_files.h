@@ -24,9 +24,12 @@ std::string imageNameOf(const SceneDescription& world);
 void reportSharedOutputs(const std::vector<SceneDescription>& worlds, const Options& options,
                          Diagnostics& diagnostics);
 
-/// Files that the run would write over what it reads or has written itself: errors, as nobody wants that.
-void reportLostFiles(const std::vector<SceneDescription>& worlds, const Options& options,
-                     Diagnostics& diagnostics);
+/// Files that the run would write over what it reads (scenes and their includes, and what parameters name:
+/// volumes, meshes, images, ...) or has written itself: errors, as nobody wants that. `mediumParams`: those
+/// of
+/// --mediumparams.
+void reportLostFiles(const std::vector<SceneDescription>& worlds, const ParamList& mediumParams,
+                     const Options& options, Diagnostics& diagnostics);
 
 /// What came of writing an image.
 struct SavedImage {

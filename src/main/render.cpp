@@ -22,6 +22,7 @@
 #include "main/render_world.h"
 #include "main/statistics_report.h"
 #include "main/watching.h"
+#include "scene/param_text.h"
 #include "scene/parser.h"
 #include "scene/print.h"
 
@@ -34,6 +35,8 @@ int printScenes(const Options& options) {
   PrintOptions print;
   print.meshesToPly = options.toPly;
   print.variables = options.variables;
+  Diagnostics unseen;  // what is asked of media prints nothing, but may use variables
+  parseParams(options.mediumParams, "--mediumparams", print.variables, unseen);
   if (const char* prefix = std::getenv("PLY_PREFIX")) print.plyPrefix = prefix;
   printFiles(options.scenes, std::cout, diagnostics, print);
   std::cout.flush();
@@ -67,9 +70,15 @@ void checkFiles(const Options& options) {
   if (options.checkpoint) requireWritable("--checkpoint", *options.checkpoint);
 }
 
+/// What is to be rendered.
+struct Input {
+  ParamList mediumParams;  ///< those of --mediumparams
+  std::vector<SceneDescription> worlds;
+};
+
 /// What is wrong with the worlds of a scene all together.
-void checkWorlds(const std::vector<SceneDescription>& worlds, const Options& options,
-                 Diagnostics& diagnostics) {
+void checkWorlds(const Input& input, const Options& options, Diagnostics& diagnostics) {
+  const std::vector<SceneDescription>& worlds = input.worlds;
   if (worlds.empty() && !diagnostics.hasErrors()) {
     diagnostics.error({}, "no WorldBegin … WorldEnd block in " + sceneNames(options) + ": nothing to render");
   }
@@ -82,7 +91,7 @@ void checkWorlds(const std::vector<SceneDescription>& worlds, const Options& opt
                               " WorldBegin … WorldEnd blocks; render them apart");
   }
   reportSharedOutputs(worlds, options, diagnostics);
-  reportLostFiles(worlds, options, diagnostics);
+  reportLostFiles(worlds, input.mediumParams, options, diagnostics);
 }
 
 /// How a run ended.
@@ -91,24 +100,27 @@ struct Outcome {
   bool isStopped = false;  ///< by a signal or a limit, before the end
 };
 
-/// The worlds of the scene files. Shows what is wrong with them; throws ShownFailure when that makes them
+/// Reads options and scene files. Shows what is wrong with them; throws ShownFailure when that makes them
 /// useless.
-std::vector<SceneDescription> readWorlds(const Options& options, Watching& watching) {
+Input readInput(const Options& options, Watching& watching) {
   Diagnostics diagnostics;
   diagnostics.strict = options.strict;
-  std::vector<SceneDescription> worlds;
+  Input input;
+  std::vector<SceneDescription>& worlds = input.worlds;
+  Variables variables = options.variables;
+  input.mediumParams = parseParams(options.mediumParams, "--mediumparams", variables, diagnostics);
   try {
     const PhaseLine line(options.progress, options.quiet, "reading " + sceneNames(options));
-    worlds = parseFiles(options.scenes, diagnostics, {.variables = options.variables});
+    worlds = parseFiles(options.scenes, diagnostics, {.variables = variables});
   } catch (const Interrupted&) {
     show(diagnostics, options.quiet);
     throw;
   }
-  checkWorlds(worlds, options, diagnostics);
+  checkWorlds(input, options, diagnostics);
   show(diagnostics, options.quiet);
   watching.add(diagnostics);
   if (diagnostics.hasErrors()) throw ShownFailure(diagnostics.format());
-  return worlds;
+  return input;
 }
 
 /// What cannot be shared out. Throws SceneError, on all ranks alike.
@@ -146,9 +158,9 @@ Outcome renderScenes(const Options& given, Together& together) {
   Watching watching(options);
 
   const Stopwatch parsing;
-  std::vector<SceneDescription> worlds;
+  Input input;
   try {
-    worlds = together.step([&] { return readWorlds(options, watching); });
+    input = together.step([&] { return readInput(options, watching); });
   } catch (const ShownFailure&) {
     return {kExitBadInput};
   } catch (const Interrupted& stopped) {
@@ -156,13 +168,14 @@ Outcome renderScenes(const Options& given, Together& together) {
             stopped.cause() != StopCause::Time};
   }
   const PhaseTime parseTime = parsing.elapsed();
+  std::vector<SceneDescription>& worlds = input.worlds;
 
   std::optional<KeptBounds> bounds;
   const std::size_t first = together.step([&] {
     bounds.emplace(options.boundsCache);
     return checkpoints->firstWorld(worlds.size());
   });
-  const Run run{options, ending, watching, *bounds, *checkpoints, together};
+  const Run run{options, ending, watching, *bounds, *checkpoints, together, input.mediumParams};
   int status = 0;
   bool isStopped = false, isOver = false;
   std::vector<RenderStatistics> all;
@@ -230,7 +243,7 @@ int renderFrames(const Options& options, Together& together) {
     if (!options.quiet)
       std::cerr << "pbrt: frame " << frame << " of " << frames.first << " to " << frames.last << '\n';
     const Outcome one = renderFrame(optionsOfFrame(options, frame), together);
-    if (status == 0) status = one.status;
+    status = worseStatus(status, one.status);
     if (together.hasFailed() || frame > frames.last - frames.step) break;
     if (together.decide(one.isStopped ? 1 : 0) == 1) break;
   }

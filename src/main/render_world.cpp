@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "main/render_world.h"
 
+#include <algorithm>
 #include <iostream>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "fields/learned_bounds.h"
 #include "image/channels.h"
 #include "image/codecs.h"
+#include "image/splat_sums.h"
 #include "image/weighted_sums.h"
 #include "main/derivative.h"
 #include "main/image_header.h"
@@ -31,14 +33,14 @@ struct BuiltWorld {
   std::unique_ptr<DerivativeScenes> derivative;  ///< refers to `scene`
 };
 
-ConstructOptions constructOptionsOf(const Options& options, Diagnostics& diagnostics) {
+ConstructOptions constructOptionsOf(const Options& options, const ParamList& mediumParams) {
   return {.outfile = options.outfile,
           .cropWindow = options.cropWindow,
           .quick = options.quick,
           .samplesPerPixel = options.samplesPerPixel,
           .seed = options.seed,
           .layers = options.layers,
-          .mediumParams = parseParams(options.mediumParams, "--mediumparams", diagnostics)};
+          .mediumParams = mediumParams};
 }
 
 /// Throws ShownFailure when there are errors, which are shown.
@@ -46,16 +48,12 @@ BuiltWorld build(SceneDescription& description, const Run& run) {
   const Options& options = run.options;
   Diagnostics diagnostics;
   diagnostics.strict = options.strict;
-  const ConstructOptions build = constructOptionsOf(options, diagnostics);
-  if (diagnostics.hasErrors()) {
-    show(diagnostics, options.quiet);
-    throw ShownFailure(diagnostics.format());
-  }
+  const ConstructOptions build = constructOptionsOf(options, run.mediumParams);
   SceneIdentity identity;
   run.watching.enter("building");
   std::optional<Construction> scene = [&] {
     const PhaseLine line(options.progress, options.quiet, "building " + sceneNames(options));
-    identity = identify(description, options.mediumParams, build.mediumParams);
+    identity = identify(description, build.mediumParams);
     return construct(description, build, diagnostics);
   }();
   show(diagnostics, options.quiet);
@@ -75,10 +73,12 @@ Construction buildAt(double value, const Options& options) {
   diagnostics.strict = options.strict;
   ParseOptions parse{.variables = options.variables};
   parse.variables.set(variable, exactText(value));
+  const ParamList mediumParams =
+      parseParams(options.mediumParams, "--mediumparams", parse.variables, diagnostics);
   std::vector<SceneDescription> worlds = parseFiles(options.scenes, diagnostics, parse);
   std::optional<Construction> scene;
   if (!diagnostics.hasErrors() && worlds.size() == 1)
-    scene = construct(worlds.front(), constructOptionsOf(options, diagnostics), diagnostics);
+    scene = construct(worlds.front(), constructOptionsOf(options, mediumParams), diagnostics);
   if (scene) return std::move(*scene);
   throw SceneError({}, "--derivative " + variable + ": there is no scene at " + variable + " = " +
                            exactText(value) + "; take another --step:\n" + diagnostics.format());
@@ -121,14 +121,7 @@ void checkRange(const SampleRange& range, const Construction& scene, bool resume
 void begin(const BuiltWorld& world, const WorldId& id, const Run& run) {
   const Options& options = run.options;
   const Construction& scene = world.scene;
-  if (needsHalves(options)) {
-    scene.film->keepHalves();
-    if (scene.integrator->makesSplats() && !options.quiet) {
-      std::cerr
-          << "pbrt: warning: the error is estimated from what camera rays bring; the noise of what light "
-             "paths bring to other pixels comes on top of it (--reference sees all)\n";
-    }
-  }
+  if (needsHalves(options)) scene.film->keepHalves();
   run.checkpoints.enter(id.number, world.identity, scene);
   if (!run.checkpoints.resumes()) {  // which brings its bounds along
     const std::string boundsWarnings = run.bounds.restore(id.name, *scene.scene);
@@ -168,7 +161,10 @@ std::string writeRendered(const std::filesystem::path& outfile, const Image& ima
 Image asRange(Image image, const SampleRange& range, const Construction& scene) {
   image.metadata["sampleRange"] = std::to_string(range.first) + ':' + std::to_string(range.end);
   image.metadata["samplesPlanned"] = std::to_string(scene.sampler->samplesPerPixel());
-  return withSums(image, scene.film->state().sums, scene.film->development(), scene.film->state().layers);
+  const Film& film = *scene.film;
+  image = withSums(image, film.state().sums, film.development(), film.otherSums());
+  if (!film.state().splats.empty()) putSplatPaths(film.state().paths, image);
+  return image;
 }
 
 void fillIn(RenderStatistics& statistics, const RenderedImage& rendered) {
@@ -204,6 +200,11 @@ int strictStatus(const RenderResult& result) {
 }
 
 }  // namespace
+
+int worseStatus(int a, int b) {
+  if (a == 0 || b == 0) return std::max(a, b);
+  return std::min(a, b);
+}
 
 std::string sceneNames(const Options& options) {
   std::string names;
@@ -269,7 +270,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   statistics.peakMemory = peakMemoryBytes();
   tell(result, statistics, run, *scene.scene);
   run.watching.finish(image, result, written);
-  if (options.strict && status == 0) status = strictStatus(result);
+  if (options.strict) status = worseStatus(status, strictStatus(result));
   return statistics;
 }
 

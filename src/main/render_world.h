@@ -16,6 +16,7 @@
 
 namespace pbrtmedia {
 
+// Exit statuses, the worst first.
 constexpr int kExitBadInput = 1;  ///< or an image that is not where it should be
 constexpr int kExitStrict = 2;    ///< with --strict: samples were dropped, or a bound was violated
 constexpr int kExitEarly = 3;     ///< with --strict: fewer samples than planned
@@ -33,7 +34,11 @@ struct Run {
   KeptBounds& bounds;
   Checkpoints& checkpoints;
   Together& together;
+  const ParamList& mediumParams;  ///< those of --mediumparams
 };
+
+/// Of what came of two worlds or frames. 0 is the best.
+int worseStatus(int a, int b);
 
 /// Which of them it is.
 struct WorldId {

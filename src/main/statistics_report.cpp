@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "main/statistics_report.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -82,6 +83,11 @@ nlohmann::ordered_json toJson(const std::vector<RenderPart>& parts) {
   return all;
 }
 
+double lostPerPass(const RankShare& rank) {
+  return (rank.traffic.waiting + rank.traffic.moving) /
+         static_cast<double>(std::max<std::uint64_t>(rank.passes, 1));
+}
+
 nlohmann::ordered_json toJson(const std::vector<RankShare>& ranks) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const RankShare& rank : ranks) {
@@ -91,7 +97,9 @@ nlohmann::ordered_json toJson(const std::vector<RankShare>& ranks) {
                    {"passes", rank.passes},
                    {"messages", rank.traffic.messages},
                    {"secondsWaiting", rank.traffic.waiting},
-                   {"secondsMoving", rank.traffic.moving}});
+                   {"secondsMoving", rank.traffic.moving},
+                   {"secondsLost", rank.traffic.waiting + rank.traffic.moving},
+                   {"secondsLostPerPass", lostPerPass(rank)}});
   }
   return all;
 }
@@ -158,13 +166,14 @@ double perSample(std::uint64_t count, const RenderStatistics& s) {
 
 /// What the ranks lost by being several.
 std::string describeRanks(const RenderStatistics& s) {
-  double waiting = 0, moving = 0;
+  double waiting = 0, moving = 0, most = 0;
   std::uint64_t bytes = 0, threads = 0;
   for (const RankShare& rank : s.ranks) {
     threads += rank.threads;
     bytes += rank.traffic.bytes;
     waiting += rank.traffic.waiting;
     moving += rank.traffic.moving;
+    most = std::max(most, lostPerPass(rank));
   }
   const auto ofAll = static_cast<double>(s.ranks.size());
   std::ostringstream os;
@@ -175,7 +184,7 @@ std::string describeRanks(const RenderStatistics& s) {
     os << " in " << passes << (passes == 1 ? " pass (" : " passes (")
        << formatCount(static_cast<double>(bytes) / static_cast<double>(passes)) << "B each)";
   os << "; each waited " << formatDuration(waiting / ofAll) << " for others and moved data for "
-     << formatDuration(moving / ofAll) << '\n';
+     << formatDuration(moving / ofAll) << ", at most " << formatDuration(most) << " in a pass\n";
   return os.str();
 }
 

@@ -14,6 +14,7 @@ namespace pbrtmedia {
 struct UnitReport {
   RenderCounters counters;
   std::uint64_t samples = 0, abandoned = 0;
+  std::uint64_t oddSamples = 0;     ///< those of odd index among the samples
   std::uint64_t pixelsSampled = 0;  ///< with a sample of this pass at least
   std::vector<DroppedSample> dropped;
   std::vector<MediumMismatch> mismatches;

@@ -79,7 +79,7 @@ SplatBuffer takeSplats(std::string_view& text) {
   for (; count > 0; --count) {
     Splat splat;
     take(text, &splat, sizeof splat);
-    buffer.begin(splat.order);
+    buffer.begin(splat.order, splat.isOdd);
     buffer.add(splat.film, splat.value);
   }
   return buffer;

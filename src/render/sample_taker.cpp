@@ -103,6 +103,7 @@ void SampleTaker::take(Point2i pixel, std::int64_t index, int slot, SamplePass& 
   out.radiance = radiance;
   out.valid = true;
   ++report.samples;
+  if (index % 2 != 0) ++report.oddSamples;
 }
 
 bool SampleTaker::admit(Rgb& radiance, Point2i pixel, std::int64_t index, UnitReport& report) const {

@@ -68,7 +68,8 @@ class TileLoop {
 
   RenderResult run() {
     return loop_.run([this](const Pass& pass) { return takeSamples(pass); },
-                     [this](std::span<const UnitReport>) { addToFilm(); }, [this] { collectFilm(); });
+                     [this](std::span<const UnitReport> units) { addToFilm(units); },
+                     [this] { collectFilm(); });
   }
 
  private:
@@ -114,7 +115,7 @@ class TileLoop {
     shares_.balance(costs);
   }
 
-  void addToFilm() {
+  void addToFilm(std::span<const UnitReport> units) {
     std::vector<SplatBuffer> others;
     if (!ranks_.isAlone())
       others = deliver(ranks_, shares_, *taken_, integrator_.makesSplats() ? &splats_ : nullptr);
@@ -122,7 +123,16 @@ class TileLoop {
     if (ranks_.isAlone()) taken_.reset();
     if (!integrator_.makesSplats()) return;
     for (SplatBuffer& buffer : others) splats_.push_back(std::move(buffer));
-    film_.addSplats(splats_, loop_.samplesOfPass(), film_.imageArea());
+    film_.addSplats(splats_, {loop_.samplesOfPass(), film_.imageArea()}, oddSamples(units));
+  }
+
+  /// Of all ranks, where the film wants to know.
+  std::uint64_t oddSamples(std::span<const UnitReport> units) {
+    if (!film_.hasHalves()) return 0;
+    std::uint64_t count[] = {0};
+    for (const UnitReport& unit : units) count[0] += unit.oddSamples;
+    if (!ranks_.isAlone()) ranks_.addUp(count);
+    return count[0];
   }
 
   void collectFilm() {
@@ -145,7 +155,7 @@ class TileLoop {
         for (int s = 0; s < pass.count; ++s) {
           if (loop_.shouldStop()) return;
           try {
-            if (splats) splats->begin(orderOf({x, y}, s));
+            if (splats) splats->begin(orderOf({x, y}, s), (pass.first + s) % 2 != 0);
             taker.take({x, y}, pass.first + s, s, samples, report, splats);
           } catch (const Interrupted&) {
             if (splats) splats->dropLast();
@@ -188,17 +198,8 @@ class TileLoop {
 
 }  // namespace
 
-std::string SamplingIntegrator::whyInOnePiece() const {
-  if (!makesSplats()) return {};
-  return "its light paths bring light to pixels everywhere, which image files do not hold apart; render the "
-         "whole with other seeds, and imgtool merge takes the mean";
-}
-
 LayerMask SamplingIntegrator::layers() const {
-  LayerMask mask = maskOf({Layer::Samples, Layer::Seconds, Layer::Lookups}) | layersOfRays();
-  // Splats come from anywhere, and nobody knows how they vary.
-  if (!makesSplats()) mask |= maskOf({Layer::Variance});
-  return mask;
+  return maskOf({Layer::Samples, Layer::Seconds, Layer::Lookups, Layer::Variance}) | layersOfRays();
 }
 
 RenderResult SamplingIntegrator::render(const Camera& camera, const Sampler& sampler, Film& film,

@@ -23,8 +23,6 @@ class SamplingIntegrator : public Integrator {
 
   RenderResult render(const Camera& camera, const Sampler& sampler, Film& film,
                       const RenderOptions& options) const final;
-  /// The sums of a range of samples that an image file holds are those of camera rays alone.
-  std::string whyInOnePiece() const override;
 
  protected:
   using Integrator::Integrator;

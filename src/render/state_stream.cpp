@@ -87,8 +87,8 @@ void transfer(Archive& archive, T& result) {
 
 template <class Archive, Is<Film::State> T>
 void transfer(Archive& archive, T& film) {
-  auto& [sums, odd, layers, splats, splatPaths, splatArea] = film;
-  archive(sums, odd, layers, splats, splatPaths, splatArea);
+  auto& [sums, odd, layers, splats, oddSplats, splatSquares, paths, oddPaths] = film;
+  archive(sums, odd, layers, splats, oddSplats, splatSquares, paths.count, paths.area, oddPaths);
 }
 
 template <class Archive, Is<LearnedBounds::State> T>
@@ -99,7 +99,7 @@ void transfer(Archive& archive, T& bounds) {
 
 /// Plain records of doubles, which are moved all at once.
 template <class T>
-constexpr bool kIsOfDoubles = std::same_as<T, Film::Sums> || std::same_as<T, Film::SplatSum>;
+constexpr bool kIsOfDoubles = std::same_as<T, Film::Sums> || std::same_as<T, SplatSum>;
 
 /// Boundaries are known by their number among the scene's primitives, from 1; 0: none.
 std::vector<const Primitive*> numbered(const Scene& scene) {

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "base/transform.h"
 #include "scene/entity.h"
 #include "scene/name_scope.h"
+#include "scene/variables.h"
 
 namespace pbrtmedia {
 
@@ -109,9 +112,12 @@ struct SceneDescription {
   std::vector<InstanceDescription> instances;  ///< those of the world and of the objects
 
   SourceLocation worldBegin, worldEnd;
-  /// Identity of the scene: of all text read for it (files and their includes) and of its place among the
-  /// worlds.
+  /// Identity of the scene: of all text read for it (files and their includes, not the values of variables)
+  /// and of its place among the worlds.
   std::uint64_t textHash = 0;
+  std::vector<Variables::Used> variables;  ///< that the text asks for
+  /// Files of that text and of spectra, without links on their way. Null: nothing is known of them.
+  std::shared_ptr<const std::set<std::filesystem::path>> files;
 };
 
 }  // namespace pbrtmedia

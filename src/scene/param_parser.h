@@ -22,6 +22,8 @@ class ParamParser {
   ParamList parse(const InputFolders& folders);
   /// Those of parameters, and of whoever reads the same tokens.
   LooseNumbers& looseNumbers() { return loose_; }
+  /// What spectra were read from.
+  const SpectrumValues& spectra() const { return spectra_; }
 
  private:
   struct Values;  // what is being read

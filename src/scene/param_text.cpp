@@ -10,11 +10,12 @@
 
 namespace pbrtmedia {
 
-ParamList parseParams(std::string_view text, std::string_view shownName, Diagnostics& diagnostics) {
+ParamList parseParams(std::string_view text, std::string_view shownName, Variables& variables,
+                      Diagnostics& diagnostics) {
   diagnostics.keepText(std::string(shownName), std::string(text));
   Diagnostics all;  // PBRT-v3 has no such text, so nothing of it is tolerated
   all.strict = true;
-  TokenStream tokens(all, {});
+  TokenStream tokens(all, variables);
   const InputFolders folders{".", "."};
   tokens.pushText(text, shownName, folders);
   ParamParser parser(tokens, all, true);
@@ -29,6 +30,7 @@ ParamList parseParams(std::string_view text, std::string_view shownName, Diagnos
     all.add(e);
   }
   parser.looseNumbers().report();
+  variables = tokens.variables();
   for (Diagnostic d : all.all()) {
     constexpr std::string_view kSuffix = " [--strict]";  // has no part in it
     if (d.message.ends_with(kSuffix)) d.message.erase(d.message.size() - kSuffix.size());

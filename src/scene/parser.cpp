@@ -2,6 +2,9 @@
 #include "scene/parser.h"
 
 #include <functional>
+#include <memory>
+#include <set>
+#include <system_error>
 
 #include "base/hash.h"
 #include "base/interruption.h"
@@ -55,7 +58,13 @@ class Parser {
     if (diagnostics_.errorCount() == 0) reportUnused();
     if (options_.variablesAfter) *options_.variablesAfter = tokens_.variables();
     std::vector<SceneDescription> worlds = builder_.take();
-    for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i].textHash = hashCombine(tokens_.textHash(), i);
+    const std::vector<Variables::Used> variables = tokens_.variables().used();
+    const auto files = std::make_shared<const std::set<std::filesystem::path>>(filesRead());
+    for (std::size_t i = 0; i < worlds.size(); ++i) {
+      worlds[i].textHash = hashCombine(tokens_.textHash(), i);
+      worlds[i].variables = variables;
+      worlds[i].files = files;
+    }
     return worlds;
   }
 
@@ -83,6 +92,14 @@ class Parser {
                            "\", expected the name of a variable: a letter, then letters, digits and _");
     }
     tokens_.variables().setDefault(name.text, std::move(s.value));
+  }
+
+  std::set<std::filesystem::path> filesRead() const {
+    std::set<std::filesystem::path> files = tokens_.files();
+    std::error_code ignored;
+    for (const auto& [file, colour] : params_.spectra().files())
+      files.insert(std::filesystem::weakly_canonical(file, ignored));
+    return files;
   }
 
   /// A name that was mistyped would leave the image as it was.

@@ -200,6 +200,21 @@ class Printer {
 
 }  // namespace
 
+std::string textOf(const ParamList& params) {
+  std::vector<std::string> entries;
+  for (const Param& p : params.all()) {
+    std::string words;
+    forEachWord(p, [&](std::string_view word) { words.append(" ").append(word); });
+    const std::string what = inQuotes(std::string(keyword(p.kind)) + ' ' + p.name);
+    entries.push_back(what +
+                      (p.size() == 1 && words.find(' ', 1) == words.npos ? words : " [" + words + " ]"));
+  }
+  std::sort(entries.begin(), entries.end());
+  std::string text;
+  for (const std::string& entry : entries) text += (text.empty() ? "" : " ") + entry;
+  return text;
+}
+
 void printFiles(std::span<const std::filesystem::path> files, std::ostream& out, Diagnostics& diagnostics,
                 const PrintOptions& options) {
   Printer printer(out, diagnostics, options);

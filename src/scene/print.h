@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/diagnostics.h"
+#include "scene/param_list.h"
 #include "scene/variables.h"
 
 namespace pbrtmedia {
@@ -19,6 +20,10 @@ struct PrintOptions {
   std::filesystem::path plyFolder{};  ///< where the files are written; "" is the working directory
   std::string plyPrefix = "mesh";     ///< files are <prefix>_00001.ply, <prefix>_00002.ply, …
 };
+
+/// A parameter list as the language has it, on one line and in order of its entries' texts: equal lists have
+/// the same text. Numbers are the shortest of their values, spectra are rgb.
+std::string textOf(const ParamList& params);
 
 /// --cat: a normalised copy of scene files: one directive per line, indented by block, parameters on lines of
 /// their own, comments kept, Include not followed, spectra as rgb. What is printed parses to the same scene.

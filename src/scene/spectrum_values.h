@@ -34,6 +34,8 @@ class SpectrumValues {
   /// The names are the strings that `param` holds.
   bool fromFiles(Param& param, const InputFolders& folders, const std::string& what,
                  const Tolerate& tolerate);
+  /// Those that were read, each with what came of it.
+  const std::map<std::filesystem::path, std::optional<Rgb>>& files() const { return spectra_; }
 
  private:
   Diagnostics& diagnostics_;

@@ -55,6 +55,7 @@ void TokenStream::push(std::optional<FileBytes> file, std::string_view text, std
     throw SceneError({name, 0, 0, 1}, "this is " + std::string(foreign));
   }
   addToHash(file ? &*file : nullptr, text);
+  if (!canonical.empty()) files_.insert(canonical);
   if (!includedAt.file) open_.clear();
   const std::size_t start = text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;  // UTF-8 byte order mark
   open_.push_back({std::move(file), Lexer(text, start, keepComments_),
@@ -138,7 +139,6 @@ void TokenStream::pushValue(const Token& variable) {
     message += "; give it a value: --define " + shown(name) + "=VALUE, or Define \"";
     throw SceneError(locate(variable), message + shown(name) + "\" VALUE above");
   }
-  addToHash(nullptr, *value);
   const std::uint32_t origin = variable.source;
   open_.push_back({std::nullopt, Lexer(*value, 0, false), origin, {}, locate(variable), 0, variable});
 }
@@ -148,7 +148,6 @@ void TokenStream::expand(Token& string) {
   try {
     std::optional<std::string> text = variables_.expanded(string.raw);
     if (!text) return;
-    addToHash(nullptr, *text);
     expanded_ = *std::move(text);
     string.raw = expanded_;
   } catch (const std::invalid_argument& e) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,10 @@ class TokenStream {
   /// PBRT-v3 ends there, but has rendered the worlds before it.
   void addBehindWorld(const SceneError& e);
 
-  /// Hash of every text pushed so far, in order.
+  /// Hash of every text pushed so far, in order, without the values of variables.
   std::uint64_t textHash() const { return textHash_; }
+  /// All files pushed so far, without links on their way.
+  const std::set<std::filesystem::path>& files() const { return files_; }
 
   Variables& variables() { return variables_; }
   std::size_t openFiles() const { return open_.size(); }
@@ -100,6 +103,7 @@ class TokenStream {
   Variables variables_;
   std::string expanded_;  ///< text of the token that was expanded last
   std::vector<Open> open_;
+  std::set<std::filesystem::path> files_;
   std::vector<Origin> origins_;
   std::optional<Token> peeked_;
   std::vector<Comment> comments_;

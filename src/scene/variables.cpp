@@ -38,6 +38,23 @@ bool isTokens(std::string_view text) {
   return !isEmpty && !isOpen;
 }
 
+/// Numbers as the shortest text of their value, the rest as it stands.
+std::string canonical(std::string_view tokens) {
+  Lexer lexer(tokens, 0, false);
+  std::string text;
+  for (Token t = lexer.next(); t.kind != Token::Kind::End; t = lexer.next()) {
+    if (!text.empty()) text += ' ';
+    double number = 0;
+    if (t.kind != Token::Kind::Word || parseDouble(t.raw, number) != NumberStatus::Ok) {
+      text += t.raw;
+      continue;
+    }
+    char buffer[32];
+    text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, number == 0 ? 0.0 : number).ptr);
+  }
+  return text;
+}
+
 std::string padded(std::string_view value, std::size_t digits, const std::string& name) {
   if (value.empty() || !std::all_of(value.begin(), value.end(), isDigit)) {
     throw std::invalid_argument("${" + name + ":" + std::to_string(digits) + "}: $" + name + " is " +
@@ -63,7 +80,7 @@ void Variables::set(const std::string& name, std::string_view text) {
 
 void Variables::setFrame(int frame) {
   frame_ = frame;
-  values_[std::string(kFrame)] = {std::to_string(frame), true, true};
+  values_[std::string(kFrame)] = {std::to_string(frame), true};
 }
 
 const std::string* Variables::find(std::string_view name) {
@@ -80,6 +97,7 @@ std::string Variables::inString(std::string_view name, std::string_view digits) 
     message += suggestion(name, names());
     throw std::invalid_argument(message + "; give it a value: --define " + shown(name) + "=VALUE");
   }
+  values_.find(name)->second.isInString = true;
   Lexer lexer(*tokens, 0, false);
   const Token value = lexer.next();
   const bool isString = value.kind == Token::Kind::String;
@@ -103,6 +121,7 @@ std::optional<std::string> Variables::expanded(std::string_view quoted) {
   bool isChanged = false;
   if (frame_ && hasFramePlace(std::string(quoted))) {
     quoted = filled = frameName(std::string(quoted), *frame_);
+    find(kFrame);  // is used
     isChanged = true;
   }
   for (std::size_t i = 0; i < quoted.size();) {
@@ -145,10 +164,19 @@ std::optional<double> Variables::number(std::string_view name) const {
   return value;
 }
 
+std::vector<Variables::Used> Variables::used() const {
+  std::vector<Used> all;
+  for (const auto& [name, value] : values_) {
+    if (value.isUsed) all.push_back({name, value.isInString ? value.tokens : canonical(value.tokens)});
+  }
+  return all;
+}
+
 std::vector<std::string_view> Variables::unused() const {
   std::vector<std::string_view> names;
   for (const auto& [name, value] : values_) {
-    if (value.isGiven && !value.isUsed) names.push_back(name);
+    const bool isFrame = frame_ && name == kFrame;
+    if (value.isGiven && !value.isUsed && !isFrame) names.push_back(name);
   }
   return names;
 }

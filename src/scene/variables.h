@@ -44,6 +44,13 @@ class Variables {
   bool isUsed(std::string_view name) const;
   /// The value where it is one number.
   std::optional<double> number(std::string_view name) const;
+  /// What something asked for, by name, with a text that is the same for equal values: that of numbers does
+  /// not depend on how they are written (1.2 and 1.20), unless a string has taken the value in.
+  struct Used {
+    std::string name, value;
+    bool operator==(const Used&) const = default;
+  };
+  std::vector<Used> used() const;
   /// Names of the command line that nothing asked for. A frame may go unused.
   std::vector<std::string_view> unused() const;
 
@@ -52,6 +59,7 @@ class Variables {
     std::string tokens;
     bool isGiven = false;  ///< by the command line
     bool isUsed = false;
+    bool isInString = false;  ///< used there, so that it counts as text
   };
   std::string inString(std::string_view name, std::string_view digits);
 

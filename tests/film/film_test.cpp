@@ -14,6 +14,7 @@
 #include "filters/mitchell.h"
 #include "filters/sinc.h"
 #include "filters/triangle.h"
+#include "support/statistics.h"
 
 namespace pbrtmedia {
 namespace {
@@ -391,7 +392,7 @@ std::vector<SplatBuffer> oneSplat(Point2f at, Rgb value) {
 
 TEST(Splats, CountInThePixelTheyHitUnderABoxOfAPixel) {
   Film film(sized(5, 4), *box());
-  film.addSplats(oneSplat({2.25f, 1.75f}, {3, 5, 7}), 2, 1);
+  film.addSplats(oneSplat({2.25f, 1.75f}, {3, 5, 7}), {2, 1});
   const Image image = film.develop();
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 5; ++x) {
@@ -399,7 +400,7 @@ TEST(Splats, CountInThePixelTheyHitUnderABoxOfAPixel) {
     }
   }
   // A second call adds to the sums and to the samples they stand for.
-  film.addSplats(oneSplat({2.25f, 1.75f}, {3, 5, 7}), 4, 1);
+  film.addSplats(oneSplat({2.25f, 1.75f}, {3, 5, 7}), {4, 1});
   EXPECT_EQ(film.develop().rgb(2, 1), Rgb(1, 6.f * 5 / 18, 7.f / 3));
 }
 
@@ -419,7 +420,7 @@ TEST(Splats, SpreadAsSamplesDo) {
       setSample(pass, pixel, 0, {at.x - static_cast<float>(pixel.x), at.y - static_cast<float>(pixel.y)},
                 Rgb(2));
       samples.accumulate(pass);
-      splats.addSplats(oneSplat(at, Rgb(2)), 1, 1);
+      splats.addSplats(oneSplat(at, Rgb(2)), {1, 1});
     }
     for (std::size_t i = 0; i < samples.state().sums.size(); ++i) {
       EXPECT_NEAR(splats.state().splats[i].g * table.integral(), samples.state().sums[i].g, 1e-10) << i;
@@ -431,9 +432,9 @@ TEST(Splats, OutsideTheFilmAreNowhere) {
   Film film(sized(5, 4), GaussianFilter({}));
   for (const Point2f at : {Point2f{-3, 1}, Point2f{8.5f, 1}, Point2f{1, -2.5f}, Point2f{1, 6.5f},
                            Point2f{1e30f, 1}, Point2f{1, -1e30f}})
-    film.addSplats(oneSplat(at, Rgb(1)), 1, 1);
-  for (const Film::SplatSum& s : film.state().splats) EXPECT_EQ(s, Film::SplatSum{});
-  film.addSplats(oneSplat({-1, 1}, Rgb(1)), 1, 1);
+    film.addSplats(oneSplat(at, Rgb(1)), {1, 1});
+  for (const SplatSum& s : film.state().splats) EXPECT_EQ(s, SplatSum{});
+  film.addSplats(oneSplat({-1, 1}, Rgb(1)), {1, 1});
   EXPECT_GT(film.state().splats[5].r, 0) << "beyond the border, within the filter";
 }
 
@@ -441,19 +442,24 @@ TEST(Splats, AreSummedInTheirOrderWhateverTheUnitsAndThreads) {
   Rng rng(7);
   std::vector<Splat> all;
   for (std::uint64_t i = 0; i < 3000; ++i) {
-    all.push_back(
-        {{rng.uniform() * 41, rng.uniform() * 90}, Rgb(rng.uniform() * std::exp(20 * rng.uniform())), i});
+    all.push_back({.film = {rng.uniform() * 41, rng.uniform() * 90},
+                   .value = Rgb(rng.uniform() * std::exp(20 * rng.uniform())),
+                   .isOdd = i % 3 == 0,
+                   .order = i});
   }
   const auto state = [&](std::size_t units, bool backward, unsigned threads) {
     const ThreadLimit limit(threads);
     std::vector<SplatBuffer> buffers(units);
     for (std::size_t n = 0; n < all.size(); ++n) {
       const Splat& splat = all[backward ? all.size() - 1 - n : n];
-      buffers[n % units].begin(splat.order);
+      buffers[n % units].begin(splat.order, splat.isOdd);
       buffers[n % units].add(splat.film, splat.value);
     }
-    Film film(sized(41, 90), MitchellFilter({}));
-    film.addSplats(buffers, 1, 1);
+    Film::Settings settings = sized(41, 90);
+    settings.layers = LayerSet(maskOf({Layer::Variance}));
+    Film film(settings, MitchellFilter({}));
+    film.keepHalves();
+    film.addSplats(buffers, {1, 1});
     return film.state();
   };
   const Film::State one = state(1, false, 1);
@@ -471,7 +477,7 @@ TEST(Splats, AddToTheMeanOfSamplesAndAreScaledWithThem) {
   SamplePass pass(film.sampleBounds(), 1);
   setSample(pass, {0, 0}, 0, {.5f, .5f}, {1, 2, 3});
   film.accumulate(pass);
-  film.addSplats(oneSplat({.5f, .5f}, Rgb(4)), 2, 1);
+  film.addSplats(oneSplat({.5f, .5f}, Rgb(4)), {2, 1});
   EXPECT_EQ(film.develop().rgb(0, 0), Rgb(9, 12, 15));
   EXPECT_EQ(film.develop().rgb(1, 0), Rgb(0));
   Film other(s, *box());
@@ -559,6 +565,101 @@ TEST_F(Admission, ScalesBrightSamplesDownToTheLimit) {
   EXPECT_FLOAT_EQ(bright.r, 50 * 10 / luminance);
   EXPECT_EQ(dim, Rgb(5));
   EXPECT_EQ(counters_.droppedTotal(), 0u);
+}
+
+/// Light paths of an image of one pixel: each brings two splats, u and u², of one random number. So a path
+/// brings u + u², whose mean is 5/6 and whose variance 1/12 + 2 (1/4 - 1/6) + 4/45 = 61/180.
+constexpr double kVarianceOfPath = 61.0 / 180;
+std::vector<SplatBuffer> randomPaths(Rng& rng, int count) {
+  std::vector<SplatBuffer> units(1);
+  for (int i = 0; i < count; ++i) {
+    const float u = rng.uniform();
+    units[0].begin(static_cast<std::uint64_t>(i), i % 2 != 0);
+    units[0].add({.5f, .5f}, Rgb(u));
+    units[0].add({.25f, .75f}, Rgb(u * u));
+  }
+  return units;
+}
+
+TEST(Splats, HaveHalvesThatTellTheErrorWithoutTheTruth) {
+  Rng rng(11);
+  for (const int paths : {2, 3, 8}) {
+    test::RunningStats squares;
+    for (int trial = 0; trial < 8000; ++trial) {
+      Film film(sized(1, 1), *box());
+      film.keepHalves();
+      const auto count = static_cast<std::uint64_t>(paths);
+      film.addSplats(randomPaths(rng, paths), {count, 1}, count / 2);
+      const double d = static_cast<double>(film.develop().rgb(0, 0).r) -
+                       static_cast<double>(film.surrogateReference().rgb(0, 0).r);
+      squares.add(d * d);
+    }
+    const test::ZTest z = test::zTest(squares, kVarianceOfPath / paths, 11);
+    EXPECT_LT(std::abs(z.z()), test::kMaxAbsZ) << z;
+  }
+}
+
+TEST(Splats, AddTheirErrorToThatOfSamples) {
+  // A sample and a light path of each index, both with noise of their own.
+  Rng rng(12);
+  test::RunningStats squares;
+  for (int trial = 0; trial < 20000; ++trial) {
+    Film film(sized(1, 1), *box());
+    film.keepHalves();
+    SamplePass pass(film.sampleBounds(), 3);
+    for (int s = 0; s < 3; ++s) setSample(pass, {0, 0}, s, {.5f, .5f}, Rgb(rng.uniform()));
+    film.accumulate(pass);
+    film.addSplats(randomPaths(rng, 3), {3, 1}, 1);
+    const double d = static_cast<double>(film.develop().rgb(0, 0).r) -
+                     static_cast<double>(film.surrogateReference().rgb(0, 0).r);
+    squares.add(d * d);
+  }
+  const test::ZTest z = test::zTest(squares, (1.0 / 12 + kVarianceOfPath) / 3, 12);
+  EXPECT_LT(std::abs(z.z()), test::kMaxAbsZ) << z;
+}
+
+TEST(Splats, HaveAVarianceOfWhatWholePathsBring) {
+  Rng rng(13);
+  for (const int paths : {2, 3, 8}) {
+    test::RunningStats variances;
+    for (int trial = 0; trial < 8000; ++trial) {
+      Film::Settings settings = sized(1, 1);
+      settings.layers = LayerSet(maskOf({Layer::Variance}));
+      settings.scale = 2;
+      Film film(settings, *box());
+      film.addSplats(randomPaths(rng, paths), {static_cast<std::uint64_t>(paths), 1});
+      variances.add(film.develop().at(0, 0, 3));
+    }
+    const test::ZTest z = test::zTest(variances, 4 * kVarianceOfPath / paths, 13);
+    EXPECT_LT(std::abs(z.z()), test::kMaxAbsZ) << z;
+  }
+  // That of splats by themselves would be 1/12 + 4/45: no test of these numbers takes one for the other.
+  EXPECT_LT(1.0 / 12 + 4.0 / 45, .6 * kVarianceOfPath) << "negative control";
+}
+
+TEST(Splats, OfPartsAddUpToThoseOfAll) {
+  Film::Settings settings = sized(1, 1);
+  settings.layers = LayerSet(maskOf({Layer::Variance, Layer::Samples}));
+  Film whole(settings, *box()), first(settings, *box());
+  for (Film* film : {&whole, &first}) film->keepHalves();
+  Rng a(14), b(14);
+  first.addSplats(randomPaths(b, 4), {4, 1}, 2);
+  whole.addSplats(randomPaths(a, 4), {4, 1}, 2);
+  Film second(settings, *box());
+  second.keepHalves();
+  ASSERT_TRUE(second.restore(first.state()));
+  Film::State odd = first.state();
+  odd.oddSplats.clear();
+  EXPECT_FALSE(second.restore(odd)) << "halves of a part of it";
+  for (Film* film : {&whole, &second}) film->addSplats(randomPaths(film == &whole ? a : b, 4), {4, 1}, 2);
+  EXPECT_EQ(whole.state(), second.state());
+  // As a file keeps them: three numbers for splats and three for their squares behind those of the layers.
+  const OtherSums order(settings.layers, true);
+  const std::vector<double> others = whole.otherSums();
+  ASSERT_EQ(others.size(), order.count());
+  const PixelParts parts = order.parts(whole.state().sums[0], others);
+  EXPECT_EQ(parts.splats, whole.state().splats[0]);
+  EXPECT_EQ(parts.splatSquares, whole.state().splatSquares[0]);
 }
 
 }  // namespace

@@ -129,13 +129,13 @@ TEST_P(KilledRender, EndsInTheSameBits) {
   EXPECT_EQ(folder_.fileCount(), 7u) << "no temporary file of a killed process may stay";
 }
 
-INSTANTIATE_TEST_SUITE_P(Media, KilledRender,
-                         testing::Values(KilledCase{"Fog", "", halton(1024), 1},
-                                         KilledCase{"Progressive", kProgressive, random(1024), 2},
-                                         KilledCase{
-                                             "Photons", "", halton(1), 3,
-                                             "\"sppm\" \"integer iterations\" 1024 \"float radius\" .1"}),
-                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Media, KilledRender,
+    testing::Values(
+        KilledCase{"Fog", "", halton(1024), 1}, KilledCase{"Progressive", kProgressive, random(1024), 2},
+        KilledCase{"Bidirectional", kProgressive, random(1024), 4, "\"bdpt\" \"integer maxdepth\" 5"},
+        KilledCase{"Photons", "", halton(1), 3, "\"sppm\" \"integer iterations\" 1024 \"float radius\" .1"}),
+    [](const auto& tested) { return tested.param.name; });
 
 TEST_F(Checkpoints, AStoppedRenderGoesOnToTheSameImage) {
   folder_.write("a.pbrt", fogScene(halton(512), kProgressive, 24, "part.exr"));
@@ -199,7 +199,7 @@ TEST_F(Checkpoints, AnotherRenderIsRefusedByAllThatDiffers) {
   expectRefused("--seed 1 --cropwindow 0 .5 0 1 a.pbrt",
                 {"what differs: --cropwindow (pixels 0 24 0 24, here pixels 0 12 0 24)\n"});
   expectRefused("--seed 1 --mediumparams '\"float g\" .5' a.pbrt",
-                {"what differs: --mediumparams (none, here \"float g\" .5)\n"});
+                {"what differs: --mediumparams (none, here \"float g\" 0.5)\n"});
   folder_.write("b.pbrt", fogScene(halton(2), "\"float g\" .1"));
   expectRefused("--seed 1 b.pbrt", {"what differs: the text of the scene\n"});
   expectRefused("--seed 3 b.pbrt", {"the text of the scene, --seed (1, here 3)\n"});
@@ -209,6 +209,17 @@ TEST_F(Checkpoints, AnotherRenderIsRefusedByAllThatDiffers) {
       "--strict a.pbrt");
   EXPECT_EQ(r.status, 0) << r.output;
   EXPECT_TRUE(folder_.has("other.png"));
+}
+
+TEST_F(Checkpoints, OptionsAreComparedByTheirValues) {
+  render(fogScene(halton(2), "\"float g\" $g \"string transmittance\" \"${t}\""),
+         "--define g=.20 --define t=ratio --mediumparams '\"rgb sigma_s\" [ 9.0 8 7 ] \"float scale\" 1.'");
+  const std::string params = " --mediumparams '\"float scale\" [ 1 ]  \"rgb sigma_s\" [ 9 8e0 7 ]' a.pbrt";
+  const ProcessResult same = pbrt("--resume c.ckpt --define g=2e-1 --define t=ratio" + params);
+  EXPECT_EQ(same.status, 0) << same.output;
+  expectRefused("--define g=.3 --define t=ratio" + params, {"what differs: $g (0.2, here 0.3)\n"});
+  expectRefused("--define g=.2 --define t=residual-ratio" + params,
+                {"what differs: $t (\"ratio\", here \"residual-ratio\")\n"});
 }
 
 TEST_F(Checkpoints, OtherVolumesAreRefused) {
@@ -448,9 +459,9 @@ TEST_F(CheckpointFile, RefusesEveryWrongByteAndEveryShorterText) {
   folder_.write("bad.ckpt", "PF\n1 1\n");
   EXPECT_EQ(messageOf(folder_.path() / "bad.ckpt"), "checkpoint: this is no such file");
   std::string next = good;
-  next[next.find('1')] = '2';
+  next[next.find('2')] = '3';
   folder_.write("bad.ckpt", next);
-  EXPECT_EQ(messageOf(folder_.path() / "bad.ckpt"), "checkpoint: version 2, expected 1");
+  EXPECT_EQ(messageOf(folder_.path() / "bad.ckpt"), "checkpoint: version 3, expected 2");
 }
 
 TEST_F(CheckpointFile, OfSeveralBlocksIsTheSame) {

@@ -77,6 +77,45 @@ TEST_F(Frames, AreNotWrittenOverEachOther) {
   EXPECT_TRUE(exists("a-1.pfm") && exists("a-2.pfm"));
 }
 
+/// Variables, and the number of the frame, in --mediumparams too.
+TEST_F(Frames, AreFilledInInParametersOfMedia) {
+  std::ofstream(folder_.path() / "s.pbrt")
+      << "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 \"string filename\" "
+         "\"a-#.pfm\"\nSampler \"random\" \"integer pixelsamples\" 2\nIntegrator \"volpath\"\n"
+         "Camera \"perspective\"\nWorldBegin\nTranslate 0 0 4\nMakeNamedMedium \"m\" \"string type\" "
+         "\"heterogeneous\" \"integer nx\" 1 \"integer ny\" 1 \"integer nz\" 1 \"point p0\" [ -1 -1 -1 ] "
+         "\"rgb sigma_a\" [ 1 1 1 ] \"rgb sigma_s\" [ 0 0 0 ]\nLightSource \"infinite\"\n"
+         "MediumInterface \"m\" \"\"\nMaterial \"\"\nShape \"sphere\"\nWorldEnd\n";
+  for (const int frame : {1, 2}) {
+    const float density = .5f * static_cast<float>(frame);
+    std::ofstream(folder_.path() / ("v-0" + std::to_string(frame) + ".raw"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(&density), sizeof density);
+  }
+  const std::string params =
+      " --mediumparams '\"string filename\" \"v-##.raw\" \"rgb sigma_a\" [ $frame $k 1 ]'";
+  const ProcessResult all = pbrt("--frames 1:2 --quiet --define k=3" + params + " s.pbrt");
+  ASSERT_EQ(all.status, 0) << all.output;
+  for (const std::string frame : {"1", "2"}) {
+    const ProcessResult one = pbrt("--quiet --outfile one.pfm --mediumparams '\"string filename\" \"v-0" +
+                                   frame + ".raw\" \"rgb sigma_a\" [ " + frame + " 3 1 ]' s.pbrt");
+    ASSERT_EQ(one.status, 0) << one.output;
+    EXPECT_TRUE(folder_.read("a-" + frame + ".pfm") == folder_.read("one.pfm")) << frame;
+  }
+  EXPECT_TRUE(folder_.read("a-1.pfm") != folder_.read("a-2.pfm"));
+  expectFails("--frames 1:2 --quiet" + params + " s.pbrt", "--mediumparams:1:53: error: no variable \"k\"");
+}
+
+TEST_F(Frames, OfOneSceneAreNamedWhereTheyAreMixed) {
+  write("a-#.exr", "$frame");
+  for (const std::string frame : {"1", "2"})
+    ASSERT_EQ(pbrt("--quiet --frames " + frame + " --seed " + frame + " s.pbrt").status, 0);
+  const ProcessResult r =
+      run("cd '" + folder_.path().string() + "' && '" IMGTOOL_PROGRAM "' merge a-1.exr a-2.exr -o b.exr");
+  EXPECT_EQ(r.status, 1);
+  EXPECT_NE(r.output.find("different scenes: the variable $frame (1 and 2) differs"), std::string::npos)
+      << r.output;
+}
+
 /// What keeps one frame from being rendered does not keep the others.
 TEST_F(Frames, GoOnBehindOneThatFails) {
   write("a-####.pfm", "4");

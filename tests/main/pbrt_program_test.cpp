@@ -162,6 +162,41 @@ TEST_F(SceneHash, CoversTheContentOfEveryFile) {
   EXPECT_FALSE(hashes.insert(hash()).second) << "the same bytes written again";
 }
 
+/// An output over an input is refused before anything is written.
+TEST_F(SceneHash, FilesThatTheSceneReadsAreNotWrittenOver) {
+  folder_.write("more.pbrt", "AttributeBegin\nAttributeEnd\n");
+  std::string text = folder_.read("a.pbrt");
+  text.insert(text.find("WorldEnd"), "Include \"more.pbrt\"\n");
+  folder_.write("a.pbrt", text);
+  std::filesystem::create_symlink("mesh.ply", folder_.path() / "link.json");
+  for (const auto& [file, why] :
+       std::vector<std::pair<std::string, std::string>>{{"more.pbrt", "an Include or a spectrum"},
+                                                        {"water.spd", "an Include or a spectrum"},
+                                                        {"fog.raw", "a parameter (a.pbrt:"},
+                                                        {"map.pfm", "a parameter (a.pbrt:"},
+                                                        {"link.json", "a parameter (a.pbrt:"}}) {
+    const std::string before = folder_.read(file);
+    for (const std::string option : {"--stats ", "--convergence ", "--checkpoint "}) {
+      const ProcessResult r = pbrt(option + file + " a.pbrt");
+      EXPECT_EQ(r.status, 1) << r.output;
+      const bool isThere = option == "--checkpoint ";  // a file by that name is a render, which is said first
+      EXPECT_NE(r.output.find(isThere ? "there is such a file" : why), std::string::npos) << r.output;
+    }
+    EXPECT_EQ(folder_.read(file), before);
+  }
+  const ProcessResult image = pbrt("--outfile map.pfm a.pbrt");
+  EXPECT_EQ(image.status, 1);
+  EXPECT_NE(image.output.find("the image \"map.pfm\" is the file of a parameter (a.pbrt:"), std::string::npos)
+      << image.output;
+  folder_.write("other.raw", folder_.read("fog.raw"));
+  const ProcessResult params =
+      pbrt("--stats other.raw --mediumparams '\"string filename\" \"other.raw\"' a.pbrt");
+  EXPECT_NE(params.output.find("is the file of a parameter (--mediumparams:1:"), std::string::npos)
+      << params.output;
+  EXPECT_FALSE(folder_.has("h.exr")) << "nothing is written";
+  EXPECT_EQ(pbrt("--stats new.json a.pbrt").status, 0);
+}
+
 TEST_F(SceneHash, LetsImgtoolRefuseWhatDoesNotBelongTogether) {
   const auto render = [&](const std::string& options, const std::string& file) {
     ASSERT_EQ(pbrt("--quiet --outfile " + file + ' ' + options + " a.pbrt").status, 0);
@@ -178,7 +213,7 @@ TEST_F(SceneHash, LetsImgtoolRefuseWhatDoesNotBelongTogether) {
   render("--seed 3 --mediumparams '\"float g\" .5'", "other.exr");
   const ProcessResult params = merge("one.exr other.exr");
   EXPECT_EQ(params.status, 1);
-  EXPECT_NE(params.output.find("--mediumparams (none and '\"float g\" .5') differs"), std::string::npos)
+  EXPECT_NE(params.output.find("--mediumparams (none and '\"float g\" 0.5') differs"), std::string::npos)
       << params.output;
   writeVolume(2);
   render("--seed 3", "volume.exr");
@@ -908,6 +943,25 @@ TEST_F(Pbrt, StrictTellsDroppedSamplesByItsExitStatus) {
   EXPECT_EQ(render.at("counters").at("droppedSamples").at("infinite"), render.at("samplesTaken"));
   EXPECT_EQ(pbrt("--strict --outfile h.exr hot.pbrt").status, 2);
   EXPECT_TRUE(folder_.has("h.exr"));
+}
+
+/// Of several worlds the worst counts: 1, 2, 3, 0.
+TEST_F(Pbrt, TheExitStatusOfSeveralWorldsIsTheWorst) {
+  const auto world = [](const std::string& name, const std::string& lights) {
+    return "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 \"string filename\" \"" +
+           name + "\"\nSampler \"random\" \"integer pixelsamples\" 64\nWorldBegin\n" + lights + "WorldEnd\n";
+  };
+  const std::string good = "LightSource \"infinite\"\n",
+                    tooBright = "LightSource \"infinite\" \"rgb L\" [ 3e38 3e38 3e38 ]\n";
+  folder_.write("early.pbrt", world("a.exr", good));
+  folder_.write("early-faulty.pbrt", world("a.exr", good) + world("b.exr", tooBright + tooBright));
+  folder_.write("faulty-early.pbrt", world("b.exr", tooBright + tooBright) + world("a.exr", good));
+  const std::string options = "--quiet --strict --error 1000 ";
+  EXPECT_EQ(pbrt("--quiet --strict early.pbrt").status, 0);
+  EXPECT_EQ(pbrt(options + "early.pbrt").status, 3);
+  EXPECT_EQ(pbrt(options + "early-faulty.pbrt").status, 2);
+  EXPECT_EQ(pbrt(options + "faulty-early.pbrt").status, 2);
+  EXPECT_EQ(pbrt(options + "--frames 1:2 --outfile f-#.exr early.pbrt").status, 3);
 }
 
 }  // namespace

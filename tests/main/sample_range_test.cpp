@@ -2,6 +2,7 @@
 // A render in ranges of its samples, and together again.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -138,15 +139,50 @@ TEST_F(SampleRange, MergesWhatWasStoppedEarlyAndSaysSo) {
   EXPECT_EQ(image("all.exr").metadata.at("stoppedBy"), "error");
 }
 
-/// Sums of a range hold no splats: a merge would lose what light paths bring.
-TEST_F(SampleRange, IsRefusedWhereLightPathsBringLightElsewhere) {
-  std::string text = scene("random", kFog);
+/// What light paths bring to other pixels has sums of its own in the file.
+TEST_F(SampleRange, HoldsWhatLightPathsBringElsewhere) {
+  std::string text = scene("halton", kFog);
   text.replace(text.find("volpath"), 7, "bdpt");
+  // The camera sees the lamp's light mostly by light paths that hit it.
+  const std::string lamp = "LightSource \"point\" \"point from\" [ 0 .2 -.3 ] \"rgb I\" [ 4 5 6 ]\n";
+  text.insert(text.find("MakeNamedMedium"), lamp);
   folder_.write("a.pbrt", text);
-  const ProcessResult r = pbrt("--samples 0:3 --outfile a.exr a.pbrt");
-  EXPECT_EQ(r.status, 1);
-  EXPECT_NE(r.output.find("cannot be rendered in parts: its light paths"), std::string::npos) << r.output;
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "a.exr"));
+  for (const std::string options : {"", "--layers variance,samples"}) {
+    ASSERT_EQ(pbrt("--pixeltype float " + options + " a.pbrt").status, 0);
+    const Image whole = image("whole.exr");
+    for (const std::string range : {"0:3", "3:4", "4:9"}) render(range, options);
+    const ProcessResult part = merge("3-4.exr 0-3.exr -o part.exr");
+    ASSERT_EQ(part.status, 0) << part.output;
+    const Image between = image("part.exr");
+    EXPECT_EQ(between.metadata.at("splatPaths"), std::to_string(4 * 28 * 20))
+        << "of each sample, those around the image too";
+    const ProcessResult merged = merge("4-9.exr part.exr -o all.exr");
+    ASSERT_EQ(merged.status, 0) << merged.output;
+    const Image all = image("all.exr");
+    EXPECT_EQ(all.channels(), whole.channels());
+    EXPECT_FALSE(all.metadata.contains("splatPaths"));
+    EXPECT_FALSE(all.metadata.contains("sampleRange"));
+    // Sums of sums: in double they may differ by rounding, which a float seldom shows.
+    int differing = 0;
+    for (int y = 0; y < whole.height(); ++y) {
+      for (int x = 0; x < whole.width(); ++x) {
+        for (std::size_t c = 0; c < whole.channelCount(); ++c) {
+          const float a = all.at(x, y, c), b = whole.at(x, y, c);
+          const bool isVariance = whole.channels()[c].starts_with("variance");  // a difference of sums
+          differing += a != b && !isVariance ? 1 : 0;
+          EXPECT_NEAR(a, b, 2e-7f * std::abs(b) + (isVariance ? 1e-14f : 0.0f)) << x << ' ' << y << ' ' << c;
+        }
+      }
+    }
+    EXPECT_LE(differing, whole.width() * whole.height() / 100);
+  }
+  // Without the sums of its splats a range is none, and one without any is of another image.
+  Image stripped = image("4-9.exr");
+  stripped.metadata.erase("splatPaths");
+  writeImage(folder_.path() / "stripped.exr", stripped, {.pixelType = PixelType::Float});
+  const ProcessResult r = merge("0-3.exr stripped.exr -o all.exr");
+  EXPECT_NE(r.status, 0);
+  EXPECT_NE(r.output.find("splatPaths"), std::string::npos) << r.output;
 }
 
 TEST_F(SampleRange, GoesOnFromACheckpointOfItsOwn) {

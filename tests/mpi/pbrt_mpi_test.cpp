@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "image/image.h"
 #include "support/background_program.h"
 #include "support/process.h"
 #include "support/source_dir.h"
@@ -89,6 +90,21 @@ int countOf(const std::string& text, const std::string& word) {
   return count;
 }
 
+/// Of the last row of a --convergence file: what comes of samples, not of seconds.
+std::string errorsOf(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string last, text;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line[0] != '#' && line[0] != 's') last = line;
+  }
+  std::istringstream cells(last);
+  int column = 0;
+  for (std::string cell; std::getline(cells, cell, ','); ++column) {
+    if (column >= 2 && column < 11) text += cell + ' ';
+  }
+  return text;
+}
+
 TEST_F(PbrtMpi, RendersTheImagesOfOneProcessForAnyRanksAndThreads) {
   folder_.write("a.pbrt", world("fog.pfm", 7, kHomogeneous) + world("cloud.pfm", 7, kProgressive));
   ASSERT_EQ(pbrt("--quiet --stats one.json a.pbrt").status, 0);
@@ -116,6 +132,11 @@ TEST_F(PbrtMpi, RendersTheImagesOfOneProcessForAnyRanksAndThreads) {
           EXPECT_EQ(share.at("threads").dump(), threads);
           EXPECT_GT(share.at("bytesSent"), 0);
           EXPECT_GT(share.at("messages"), 0);
+          const double lost = share.at("secondsLost"), passes = share.at("passes");
+          EXPECT_GT(lost, 0);
+          EXPECT_DOUBLE_EQ(
+              lost, share.at("secondsWaiting").get<double>() + share.at("secondsMoving").get<double>());
+          EXPECT_DOUBLE_EQ(share.at("secondsLostPerPass").get<double>() * passes, lost);
           cpu += share.at("cpuSeconds").get<double>();
         }
         if (ranks > 1) {
@@ -126,6 +147,28 @@ TEST_F(PbrtMpi, RendersTheImagesOfOneProcessForAnyRanksAndThreads) {
       }
     }
   }
+}
+
+/// What light paths bring to pixels of other ranks is summed in the order of one process, in halves too.
+TEST_F(PbrtMpi, RendersBdptAsOneProcessDoes) {
+  std::string scene = world("lit.exr", 6, kProgressive);
+  scene.replace(scene.find("volpath"), 7, "bdpt");
+  folder_.write("a.pbrt", scene);
+  const std::string options = "--quiet --pixeltype float --layers variance,lookups --error 1e-9 ";
+  ASSERT_EQ(pbrt(options + "--stats one.json --convergence one.csv a.pbrt").status, 0);
+  const Image one = readImage(folder_.path() / "lit.exr");
+  for (int ranks = 1; ranks <= 4; ++ranks) {
+    std::filesystem::remove(folder_.path() / "lit.exr");
+    const ProcessResult r =
+        mpi(ranks, options + "--stats many.json --convergence many.csv --nthreads 2 a.pbrt");
+    ASSERT_EQ(r.status, 0) << r.output;
+    const Image many = readImage(folder_.path() / "lit.exr");
+    EXPECT_EQ(many.data(), one.data()) << ranks << " ranks";
+    EXPECT_EQ(many.channels(), one.channels());
+    EXPECT_EQ(statistics("many.json")[0].at("counters"), statistics("one.json")[0].at("counters")) << ranks;
+    EXPECT_EQ(errorsOf(folder_.read("many.csv")), errorsOf(folder_.read("one.csv"))) << ranks;
+  }
+  EXPECT_FALSE(errorsOf(folder_.read("one.csv")).empty());
 }
 
 TEST_F(PbrtMpi, AKilledRankEndsTheJobAndLeavesACheckpoint) {

@@ -347,11 +347,14 @@ TEST(FogLayers, FogThatOnlyAbsorbsHasNoDepthAndNoAlbedo) {
 
 // ---- Variance
 
-TEST(VarianceOfImages, IsThatOfTheMeanOverManySeeds) {
+/// By integrators: that of `bdpt` has what light paths bring to other pixels, too.
+class VarianceOfImages : public testing::TestWithParam<const char*> {};
+
+TEST_P(VarianceOfImages, IsThatOfTheMeanOverManySeeds) {
   // Each pixel has an unbiased estimate from every render, and one from all renders together: the mean of the
   // differences over pixels, which are independent under a filter of one pixel, is 0.
   const std::string text =
-      withLayers(pencil(16, 5, "\"volpath\"", "", .9), "\"variance\"") + "WorldBegin\n" + kWhiteEnvironment +
+      withLayers(pencil(16, 5, GetParam(), "", .9), "\"variance\"") + "WorldBegin\n" + kWhiteEnvironment +
       constantMedium(Storage::Homogeneous, .2, 1, .5, {-.7, -.7, 1}, {.7, .7, 2}) +
       mediumBox("m", {-.7, -.7, 1}, {.7, .7, 2}) + "Translate 0 0 3\n" + kMatte + kPlane + "WorldEnd\n";
   constexpr int kSeeds = 64;
@@ -380,6 +383,12 @@ TEST(VarianceOfImages, IsThatOfTheMeanOverManySeeds) {
   const ZTest wrong = zTest(ofSamples, 0, 1);  // negative control
   EXPECT_GT(std::abs(wrong.z()), kMaxAbsZ) << wrong;
 }
+
+INSTANTIATE_TEST_SUITE_P(Integrators, VarianceOfImages, testing::Values("\"volpath\"", "\"bdpt\""),
+                         [](const auto& tested) {
+                           const std::string name = tested.param;
+                           return name.substr(1, name.size() - 2);
+                         });
 
 }  // namespace
 }  // namespace pbrtmedia::test

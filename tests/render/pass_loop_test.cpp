@@ -52,7 +52,7 @@ class ChainIntegrator final : public Integrator {
     const auto addToFilm = [&](std::span<const UnitReport> reports) {
       std::uint64_t taken = 0;
       for (const UnitReport& report : reports) taken += report.samples;
-      film.addSplats(splats, taken, static_cast<double>(area));
+      film.addSplats(splats, {taken, static_cast<double>(area)});
     };
     return loop.run(takeSamples, addToFilm);
   }

@@ -308,10 +308,10 @@ TEST(RenderLoop, StopsWithSplatsOfTheSamplesThatWereTakenOnly) {
   const RenderResult result = integrator.render(FlatCamera(), sampler, film, {.stop = &signal.flag()});
   ASSERT_EQ(result.samplesAbandoned, 1u);
   double sum = 0;
-  for (const Film::SplatSum& s : film.state().splats) sum += s.r;
+  for (const SplatSum& s : film.state().splats) sum += s.r;
   EXPECT_EQ(sum, static_cast<double>(result.samplesTaken));
-  EXPECT_EQ(film.state().splatPaths, result.samplesTaken);
-  EXPECT_EQ(film.state().splatArea, 37 * 23);
+  EXPECT_EQ(film.state().paths.count, result.samplesTaken);
+  EXPECT_EQ(film.state().paths.area, 37 * 23);
 }
 
 TEST(RenderLoop, KeepsSplatsThatAreNoNumbersOffTheFilm) {

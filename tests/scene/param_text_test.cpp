@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/print.h"
+
 namespace pbrtmedia {
 namespace {
 
@@ -13,8 +15,10 @@ constexpr std::string_view kName = "--mediumparams";
 
 TEST(ParseParams, ReadsAListAsADirectiveHasIt) {
   Diagnostics diagnostics;
-  const ParamList list = parseParams(
-      R"("string transmittance" "regular" "integer supervoxels" [ 1 2 3 ] "float g" .5)", kName, diagnostics);
+  Variables variables;
+  const ParamList list =
+      parseParams(R"("string transmittance" "regular" "integer supervoxels" [ 1 2 3 ] "float g" .5)", kName,
+                  variables, diagnostics);
   EXPECT_EQ(diagnostics.format(), "");
   ASSERT_EQ(list.size(), 3u);
   EXPECT_EQ(std::get<std::vector<std::string>>(list.find(ParamKind::String, "transmittance")->values),
@@ -27,7 +31,8 @@ TEST(ParseParams, ReadsAListAsADirectiveHasIt) {
 TEST(ParseParams, NothingIsNothing) {
   for (const std::string_view text : {"", "  \n", "# a comment"}) {
     Diagnostics diagnostics;
-    EXPECT_TRUE(parseParams(text, kName, diagnostics).empty());
+    Variables variables;
+    EXPECT_TRUE(parseParams(text, kName, variables, diagnostics).empty());
     EXPECT_EQ(diagnostics.format(), "") << text;
   }
 }
@@ -41,11 +46,39 @@ TEST(ParseParams, TellsWhereAndWhatIsWrong) {
            {"\"flaot g\" 1", "--mediumparams:1:1: error"},
            {"\"float g\" \"x\"", "--mediumparams:1:11: error"}}) {
     Diagnostics diagnostics;
-    parseParams(text, kName, diagnostics);
+    Variables variables;
+    parseParams(text, kName, variables, diagnostics);
     EXPECT_TRUE(diagnostics.hasErrors()) << text;
     EXPECT_NE(diagnostics.format().find(message), std::string::npos) << diagnostics.format();
     EXPECT_NE(diagnostics.format().find('^'), std::string::npos) << "an excerpt: " << diagnostics.format();
   }
+}
+
+TEST(ParseParams, TakesTheValuesOfVariables) {
+  Diagnostics diagnostics;
+  Variables variables;
+  variables.set("g", "0.50");
+  variables.set("other", "1");
+  variables.setFrame(7);
+  const ParamList list = parseParams(R"("float g" $g "string filename" "v-##.raw" "integer n" [ $frame 1 ])",
+                                     kName, variables, diagnostics);
+  EXPECT_EQ(diagnostics.format(), "");
+  EXPECT_EQ(textOf(list), R"("float g" 0.5 "integer n" [ 7 1 ] "string filename" "v-07.raw")");
+  EXPECT_EQ(variables.unused(), std::vector<std::string_view>{"other"});
+}
+
+TEST(ParamText, IsTheSameForEqualLists) {
+  Diagnostics diagnostics;
+  Variables variables;
+  const auto text = [&](std::string_view params) {
+    return textOf(parseParams(params, kName, variables, diagnostics));
+  };
+  EXPECT_EQ(text(R"("float a" [ 1.50 ] "bool b" "true" "rgb c" [ 1 .5 0 ])"),
+            text(R"("rgb c" [ 1.0 0.5 0e3 ]  "float a" 15e-1 "bool b" [ "true" ])"));
+  EXPECT_NE(text(R"("float a" 1)"), text(R"("float a" [ 1 1 ])"));
+  EXPECT_EQ(text(""), "");
+  EXPECT_EQ(text(text(R"("string s" "two words" "float a" [ 1 2 ])")),
+            text(R"("string s" "two words" "float a" [ 1 2 ])"));
 }
 
 }  // namespace

@@ -186,13 +186,29 @@ TEST(Variables, OfTheCommandLineMustBeUsed) {
 /// What is another render has another hash; what is the same scene has the same one.
 TEST(Variables, BelongToTheScene) {
   const std::string text = std::string("Define \"a\" 1\nTranslate 0 0 $a\n") + kWorld;
-  const auto hash = [&](const Variables& v) { return parseWith(v, text).scenes.at(0).textHash; };
-  EXPECT_EQ(hash(with({{"a", "2"}})), hash(with({{"a", "2"}})));
-  EXPECT_EQ(hash({}), hash(with({{"a", "1"}})));
-  EXPECT_NE(hash({}), hash(with({{"a", "2"}})));
+  using Used = std::vector<Variables::Used>;
+  const auto used = [&](const Variables& v, const std::string& of) {
+    return parseWith(v, of).scenes.at(0).variables;
+  };
+  EXPECT_EQ(used({}, text), (Used{{"a", "1"}}));
+  EXPECT_EQ(used(with({{"a", "1"}}), text), (Used{{"a", "1"}}));
+  EXPECT_EQ(used(with({{"a", "2"}}), text), (Used{{"a", "2"}}));
+  for (const char* same : {"1.20", "1.2", "+12e-1", "0001.2000"})
+    EXPECT_EQ(used(with({{"a", same}}), text), (Used{{"a", "1.2"}})) << same;
+  EXPECT_EQ(used(with({{"a", "-0"}}), text), (Used{{"a", "0"}}));
+  const std::string list = std::string("Film \"image\" \"float cropwindow\" $a\n") + kWorld;
+  EXPECT_EQ(used(with({{"a", "[ 0.0 1. .50 1 ]"}}), list), (Used{{"a", "[ 0 1 0.5 1 ]"}}));
+  // In a string it is its letters that count.
   const std::string named = std::string("Film \"image\" \"string filename\" \"${a}\"\n") + kWorld;
-  EXPECT_NE(parseWith(with({{"a", "1"}}), named).scenes.at(0).textHash,
-            parseWith(with({{"a", "2"}}), named).scenes.at(0).textHash);
+  EXPECT_EQ(used(with({{"a", "1.20"}}), named), (Used{{"a", "1.20"}}));
+  // The text is the same, whatever they are; and so is one that has the number of a frame in a name.
+  const auto hash = [&](const Variables& v) { return parseWith(v, text).scenes.at(0).textHash; };
+  EXPECT_EQ(hash({}), hash(with({{"a", "2"}})));
+  Variables frame;
+  frame.setFrame(7);
+  EXPECT_EQ(used(frame, std::string("Film \"image\" \"string filename\" \"a-####\"\n") + kWorld),
+            (Used{{"frame", "7"}}));
+  EXPECT_EQ(used(frame, kWorld), Used{});
 }
 
 TEST(Variables, ArePrintedAsTheirValues) {

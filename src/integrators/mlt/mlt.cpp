@@ -172,7 +172,7 @@ class MltIntegrator::Mutations {
   bool mutateOnce(std::size_t chain, std::uint64_t order, float scale, SplatBuffer& splats,
                   UnitReport& unit) {
     if (chains_.empty()) return true;
-    splats.begin(order);
+    splats.begin(order, chain % 2 != 0);
     try {
       chains_[chain].mutate(setup_, scale, splats, unit.counters);
     } catch (const Interrupted&) {
@@ -185,9 +185,17 @@ class MltIntegrator::Mutations {
   /// Mutations count one by one, so part of a pass is in the image, too. Chains go on from whole passes.
   void finish(std::span<const UnitReport> units) {
     if (!isStarted_) return;
-    film_.addSplats(splats_, loop_.samplesOfPass(), static_cast<double>(pixels_));
+    film_.addSplats(splats_, {loop_.samplesOfPass(), static_cast<double>(pixels_)}, oddMutations(units));
     splats_.clear();
     if (areComplete(units)) save(loop_.carried());
+  }
+
+  /// Halves are of chains: mutations of one depend on each other. The units of chains are the last.
+  std::uint64_t oddMutations(std::span<const UnitReport> units) const {
+    const auto chains = static_cast<std::size_t>(params_.chains);
+    std::uint64_t count = 0;
+    for (std::size_t c = 1; c < chains; c += 2) count += units[units.size() - chains + c].samples;
+    return count;
   }
 
   void save(std::vector<double>& out) const {

@@ -8,7 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "film/layer_sums.h"
+#include "film/pixel_sums.h"
+#include "image/splat_sums.h"
 #include "image/weighted_sums.h"
 #include "tools/imgtool/layers.h"
 #include "tools/imgtool/same_scene.h"
@@ -82,17 +83,34 @@ void requireSameRender(const NamedImage& first, const NamedImage& other) {
   requireKnownBounds(other);
 }
 
-PixelSums requiredSums(const NamedImage& input, const LayerSet& layers) {
+PixelSums requiredSums(const NamedImage& input, const OtherSums& order) {
   std::optional<PixelSums> sums = sumsOf(input.image);
-  if (!sums || sums->others.size() != sums->colours.size() * layers.sumCount())
+  if (!sums || sums->others.size() != sums->colours.size() * order.count())
     failMerge(input.name, "no channels \"sums...\"; ranges are merged as pbrt --samples wrote them");
   return std::move(*sums);
 }
 
-PixelSums added(const std::vector<NamedImage>& inputs, const LayerSet& layers) {
+/// The light paths behind the splats of all ranges; none where there are no splats.
+SplatPaths pathsOf(const std::vector<NamedImage>& inputs) {
+  SplatPaths all;
+  if (!hasSplatPaths(inputs.front().image)) return all;
+  for (const NamedImage& input : inputs) {
+    try {
+      const SplatPaths paths = splatPathsOf(input.image);
+      if (all.count > 0 && paths.area != all.area)
+        throw std::invalid_argument("metadata \"splatArea\" is not that of the other ranges");
+      all = {all.count + paths.count, paths.area};
+    } catch (const std::invalid_argument& e) {
+      failMerge(input.name, e.what());
+    }
+  }
+  return all;
+}
+
+PixelSums added(const std::vector<NamedImage>& inputs, const OtherSums& order) {
   PixelSums sums;
   for (const NamedImage& input : inputs) {
-    PixelSums part = requiredSums(input, layers);
+    PixelSums part = requiredSums(input, order);
     if (sums.colours.empty()) {
       sums = std::move(part);
       continue;
@@ -103,16 +121,18 @@ PixelSums added(const std::vector<NamedImage>& inputs, const LayerSet& layers) {
   return sums;
 }
 
-void develop(const PixelSums& sums, const LayerSet& layers, const Development& development, Image& out) {
-  std::vector<float> values(layers.channelCount());
+void develop(const PixelSums& sums, const LayerSet& layers, const OtherSums& order, const SplatPaths& paths,
+             const Development& development, Image& out) {
+  std::vector<std::string> names = {"R", "G", "B"};
+  names.insert(names.end(), layers.channelNames().begin(), layers.channelNames().end());
+  std::vector<float> values(names.size());
   std::vector<std::size_t> channels;
-  for (const std::string& name : layers.channelNames()) channels.push_back(out.channelIndex(name).value());
+  for (const std::string& name : names) channels.push_back(out.channelIndex(name).value());
   std::size_t i = 0;
   for (int y = 0; y < out.height(); ++y) {
     for (int x = 0; x < out.width(); ++x, ++i) {
-      out.setRgb(x, y, development.colour(sums.colours[i]));
-      developLayers(layers, std::span(sums.others).subspan(i * layers.sumCount(), layers.sumCount()),
-                    sums.colours[i], development, values.data());
+      const auto others = std::span(sums.others).subspan(i * order.count(), order.count());
+      developPixel(order.parts(sums.colours[i], others), layers, paths, development, values.data());
       for (std::size_t c = 0; c < channels.size(); ++c) out.at(x, y, channels[c]) = values[c];
     }
   }
@@ -132,17 +152,21 @@ Image mergeRanges(std::vector<NamedImage> inputs) {
   std::sort(inputs.begin(), inputs.end(),
             [](const NamedImage& a, const NamedImage& b) { return rangesOf(a) < rangesOf(b); });
   const LayerSet layers = layersOf(inputs.front());
-  const PixelSums sums = added(inputs, layers);
+  const SplatPaths paths = pathsOf(inputs);
+  const OtherSums order(layers, paths.count > 0);
+  const PixelSums sums = added(inputs, order);
   const Development development = developmentOf(inputs.front().image);
   Image out = withoutSums(inputs.front().image);
-  develop(sums, layers, development, out);
+  develop(sums, layers, order, paths, development, out);
   out.metadata = mergedMetadata(inputs);
   out.metadata["seed"] = requiredMetadata(inputs.front(), "seed");
   const std::string planned = requiredMetadata(inputs.front(), "samplesPlanned"), text = textOf(ranges);
   if (text == std::string("0:").append(planned)) return out;
   out.metadata["samplesPlanned"] = planned;
   out.metadata["sampleRange"] = text;
-  return withSums(out, sums.colours, development, sums.others);
+  out = withSums(out, sums.colours, development, sums.others);
+  if (paths.count > 0) putSplatPaths(paths, out);
+  return out;
 }
 
 }  // namespace pbrtmedia

@@ -25,6 +25,17 @@ std::optional<T> parseWhole(const std::string& text) {
   return value;
 }
 
+/// "name value" lines.
+std::map<std::string, std::string> variablesOf(const Image& image) {
+  std::map<std::string, std::string> variables;
+  std::istringstream in(metadata(image, "sceneVariables").value_or(""));
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t space = line.find(' ');
+    if (space != std::string::npos) variables[line.substr(0, space)] = line.substr(space + 1);
+  }
+  return variables;
+}
+
 /// "hash name" lines as name -> hash.
 std::map<std::string, std::string> filesOf(const Image& image) {
   std::map<std::string, std::string> files;
@@ -43,6 +54,12 @@ std::string sceneDifference(const Image& a, const Image& b) {
     return text ? "'" + *text + "'" : std::string("none");
   };
   if (metadata(a, "sceneText") != metadata(b, "sceneText")) parts.emplace_back("the text of the scene files");
+  const std::map<std::string, std::string> variables = variablesOf(b);
+  for (const auto& [name, value] : variablesOf(a)) {
+    const auto other = variables.find(name);
+    if (other != variables.end() && other->second != value)
+      parts.push_back("the variable $" + name + " (" + value + " and " + other->second + ")");
+  }
   const auto paramsA = metadata(a, "mediumParams"), paramsB = metadata(b, "mediumParams");
   if (paramsA != paramsB)
     parts.push_back("--mediumparams (" + quoted(paramsA) + " and " + quoted(paramsB) + ")");
@@ -136,7 +153,8 @@ void requireKnownBounds(const NamedImage& input) {
 
 std::map<std::string, std::string> mergedMetadata(const std::vector<NamedImage>& inputs) {
   Image out;
-  for (const char* key : {"sceneHash", "sceneText", "mediumParams", "sceneFiles", "boundsState", "layers"})
+  for (const char* key :
+       {"sceneHash", "sceneText", "sceneVariables", "mediumParams", "sceneFiles", "boundsState", "layers"})
     keepCommon(inputs, key, out);
   std::vector<const Image*> images;
   for (const NamedImage& input : inputs) images.push_back(&input.image);
