@@ -33,8 +33,10 @@ void addIdentity(Image& image, const SceneIdentity& identity) {
   image.metadata["sceneText"] = hexadecimal(identity.text);
   if (!identity.derivative.empty()) image.metadata["derivative"] = identity.derivative;
   std::string variables;
-  for (const auto& [name, value] : identity.variables)
-    variables += (variables.empty() ? "" : "\n") + name + ' ' + value;
+  for (const auto& [name, value] : identity.variables) {
+    if (!variables.empty()) variables += '\n';
+    variables.append(name).append(1, ' ').append(value);
+  }
   if (!variables.empty()) image.metadata["sceneVariables"] = variables;
   if (!identity.mediumParams.empty()) image.metadata["mediumParams"] = identity.mediumParams;
   // A header is no place for thousands of names.

@@ -17,6 +17,9 @@ float cosineOfAzimuth(Vector3f wo, Vector3f wi) {
   return std::clamp(-(wo.x * wi.x + wo.y * wi.y) / std::sqrt(length2), -1.0f, 1.0f);
 }
 
+/// Tables of splines and series that cancel each other may have quotients beyond all numbers: no light.
+float finiteOrZero(float x) { return std::isfinite(x) ? x : 0; }
+
 }  // namespace
 
 Rgb FourierScattering::f(Vector3f wo, Vector3f wi) const {
@@ -25,13 +28,15 @@ Rgb FourierScattering::f(Vector3f wo, Vector3f wi) const {
   const FourierTable::Blend blend(*table, muI, muO);
   float scale = 1 / std::abs(muI);
   if (muI * muO > 0) scale *= muI > 0 ? 1 / sqr(table->eta()) : sqr(table->eta());
-  return scale * blend.value(cosineOfAzimuth(wo, wi));
+  const Rgb f = scale * blend.value(cosineOfAzimuth(wo, wi));
+  return {finiteOrZero(f.r), finiteOrZero(f.g), finiteOrZero(f.b)};
 }
 
 float FourierScattering::pdf(Vector3f wo, Vector3f wi) const {
   const float whole = FourierTable::Blend::whole(*table, wo.z);
   if (!(whole > 0)) return 0;
-  return std::max(0.0f, FourierTable::Blend(*table, -wi.z, wo.z).luminance(cosineOfAzimuth(wo, wi))) / whole;
+  const float luminance = FourierTable::Blend(*table, -wi.z, wo.z).luminance(cosineOfAzimuth(wo, wi));
+  return finiteOrZero(std::max(0.0f, luminance) / whole);
 }
 
 LobeSample FourierScattering::sample(Vector3f wo, Point2f u) const {

@@ -63,8 +63,9 @@ FourierTable FourierTable::parse(std::string_view bytes, const std::string& show
     headerNumber(in, "bases", 1, 1);
     in.take(3 * sizeof(std::uint32_t));
     table.eta_ = in.number<float>();
-    if (!(table.eta_ > 0) || !std::isfinite(table.eta_))
-      throw fail("its index of refraction is not positive");
+    constexpr float kLeastIndex = 1e-3f, kMostIndex = 1e3f;
+    if (!(table.eta_ >= kLeastIndex && table.eta_ <= kMostIndex))
+      throw fail("its index of refraction is not in 0.001 to 1000");
     in.take(4 * sizeof(std::uint32_t));
     table.mu_ = numbers(in, n, "cosine");
     if (table.mu_.front() < -1 || table.mu_.back() > 1) throw fail("cosines are not in [-1, 1]");

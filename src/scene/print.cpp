@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <ostream>
+#include <utility>
 
 #include "scene/param_parser.h"
 #include "scene/ply_output.h"
@@ -205,9 +206,10 @@ std::string textOf(const ParamList& params) {
   for (const Param& p : params.all()) {
     std::string words;
     forEachWord(p, [&](std::string_view word) { words.append(" ").append(word); });
-    const std::string what = inQuotes(std::string(keyword(p.kind)) + ' ' + p.name);
-    entries.push_back(what +
-                      (p.size() == 1 && words.find(' ', 1) == words.npos ? words : " [" + words + " ]"));
+    std::string entry = inQuotes(std::string(keyword(p.kind)) + ' ' + p.name);
+    const bool isOneWord = p.size() == 1 && words.find(' ', 1) == words.npos;
+    entry.append(isOneWord ? "" : " [").append(words).append(isOneWord ? "" : " ]");
+    entries.push_back(std::move(entry));
   }
   std::sort(entries.begin(), entries.end());
   std::string text;

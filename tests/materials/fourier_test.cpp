@@ -43,6 +43,17 @@ TEST(FourierScattering, HasChannels) {
   EXPECT_NEAR(f.g, (1.39829f - 0.100913f * 0.6f - 0.297375f * 0.8f) * y, 2e-3f);
 }
 
+TEST(FourierScattering, IsANumberWhereQuotientsAreBeyondAll) {
+  FourierSample s = sample();
+  s.reflectance = 3e20f;
+  const FourierTable table = tableOf(s);
+  const FourierScattering law{&table};
+  const Vector3f grazing{1, 0, 1e-25f};
+  ASSERT_GT(FourierTable::Blend(table, -grazing.z, polar(40, 20).z).value(0).g, 1e15f);
+  EXPECT_EQ(law.f(polar(40, 20), grazing), Rgb(0));
+  EXPECT_GT(law.f(polar(40, 20), polar(60, 110)).g, 1e19f);
+}
+
 TEST(FourierScattering, ReturnsWhatItsTableSays) {
   const FourierTable table = tableOf(sample());
   const FourierScattering law{&table};
@@ -119,6 +130,7 @@ TEST(FourierTable, RefusesWhatIsNone) {
   expect(changed(5, 2), "found 2 bases");
   expect(changed(9, 0), "index of refraction");
   expect(changed(9, std::bit_cast<std::uint32_t>(-1.5f)), "index of refraction");
+  expect(changed(9, std::bit_cast<std::uint32_t>(1e4f)), "not in 0.001 to 1000");
   expect(changed(14, std::bit_cast<std::uint32_t>(-2.0f)), "not in [-1, 1]");
   expect(changed(15, std::bit_cast<std::uint32_t>(-1.0f)), "do not increase");
   expect(changed(15, 0x7fc00000), "cosine that is no finite number");

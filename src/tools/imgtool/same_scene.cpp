@@ -57,8 +57,9 @@ std::string sceneDifference(const Image& a, const Image& b) {
   const std::map<std::string, std::string> variables = variablesOf(b);
   for (const auto& [name, value] : variablesOf(a)) {
     const auto other = variables.find(name);
-    if (other != variables.end() && other->second != value)
-      parts.push_back("the variable $" + name + " (" + value + " and " + other->second + ")");
+    if (other == variables.end() || other->second == value) continue;
+    std::string& part = parts.emplace_back("the variable $");
+    part.append(name).append(" (").append(value).append(" and ").append(other->second).append(")");
   }
   const auto paramsA = metadata(a, "mediumParams"), paramsB = metadata(b, "mediumParams");
   if (paramsA != paramsB)
