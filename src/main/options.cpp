@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "main/derivative_options.h"
 #include "main/option_values.h"
 #include "tools/command_line.h"
 
@@ -44,7 +45,7 @@ class OptionList {
         ->type_name("FILE");
     addImage();
     addVariables();
-    addDerivative();
+    addDerivativeOptions(app_, derivative_);
     addSampling();
     addMedia();
     addFiles();
@@ -61,7 +62,6 @@ class OptionList {
  private:
   void addImage();
   void addVariables();
-  void addDerivative();
   void addSampling();
   void addMedia();
   void addFiles();
@@ -76,8 +76,8 @@ class OptionList {
   std::vector<std::string> prepared(const std::vector<std::string>& words) const;
   void setUpLog() const;
 
-  static constexpr const char *kRendering = "Rendering", *kDerivatives = "Derivatives", *kChecks = "Checks",
-                              *kReports = "Reports", *kWatching = "Watching", *kOther = "Other";
+  static constexpr const char *kRendering = "Rendering", *kChecks = "Checks", *kReports = "Reports",
+                              *kWatching = "Watching", *kOther = "Other";
 
   CLI::App app_{
       "Renders PBRT-v3 scene files.\n"
@@ -134,53 +134,6 @@ void OptionList::addVariables() {
       ->check(frameRange())
       ->type_name("A:B")
       ->group(kRendering);
-}
-
-void OptionList::addDerivative() {
-  using Difference = DifferenceSchedule::Difference;
-  using Debias = DifferenceSchedule::Debias;
-  DifferenceSchedule::Params& difference = derivative_.difference;
-  CLI::Option* const name =
-      app_.add_option("--derivative", derivative_.variable,
-                      "render how the image changes with $NAME, from differences (docs/derivatives.md)")
-          ->check(variableName())
-          ->type_name("NAME")
-          ->group(kDerivatives);
-  CLI::Option* const step =
-      app_.add_option("--step", difference.step, "of the variable, between two images; of either sign")
-          ->check(number(NumberRange::any()))
-          ->type_name("H")
-          ->group(kDerivatives);
-  name->needs(step);
-  step->needs(name);
-  const std::map<std::string, Difference> differences = {{"forward", Difference::Forward},
-                                                         {"central", Difference::Central}};
-  app_.add_option("--difference", difference.difference,
-                  "forward (default): from the value to a step above; central: from a step below")
-      ->transform(oneOf(differences))
-      ->needs(name)
-      ->type_name("KIND")
-      ->group(kDerivatives);
-  const std::map<std::string, Debias> debiased = {
-      {"none", Debias::None}, {"single", Debias::Single}, {"progressive", Debias::Progressive}};
-  app_.add_option("--debias", difference.debias,
-                  "none (default): one step for all passes; single: each pass corrects it by a level drawn, "
-                  "without bias; progressive: steps shrink from pass to pass")
-      ->transform(oneOf(debiased))
-      ->needs(name)
-      ->type_name("HOW")
-      ->group(kDerivatives);
-  app_.add_option("--step-decay", difference.decay, "the step of progressive pass k is H k^-D (default 1/3)")
-      ->needs(name)
-      ->check(number({.least = 0, .most = 1, .excludesLeast = true}))
-      ->type_name("D")
-      ->group(kDerivatives);
-  app_.add_option("--pass-samples", derivative_.samplesPerPass,
-                  "samples per pixel of a pass, which share step and level (default 1/64 of all, 1 to 16)")
-      ->needs(name)
-      ->check(wholeNumber(1, 1 << 20))
-      ->type_name("N")
-      ->group(kDerivatives);
 }
 
 void OptionList::addSampling() {
