@@ -17,8 +17,9 @@ namespace {
 constexpr double kFlatness = 0.05;
 /// Widths around a strand's tangent within which a ray that starts there is still on the strand.
 constexpr double kStartWidths = 2;
-/// Relative: roots that differ by less are one, found again.
-constexpr double kSameRoot = 4 * 0x1p-24;
+/// Relative, and absolute for distances below the normal numbers: roots that differ by no more are one, found
+/// again.
+constexpr double kSameRoot = 4 * 0x1p-24, kSameTinyRoot = 2 * 0x1p-149;
 /// More pieces than these are made only of more segments.
 constexpr std::size_t kMostSplitPieces = std::size_t{1} << 24;
 constexpr std::size_t kMostPieces = std::numeric_limits<std::uint32_t>::max() - 1;
@@ -211,7 +212,8 @@ std::optional<UserGeometry::Root> Curves::intersect(std::uint32_t primitive, con
       const Vec3d along = space.vector(cubicOf(s).derivative(u));
       const double reach = kStartWidths * lerp(u, double{s.width0}, double{s.width1}), size = length(along);
       return std::ranges::any_of(excludedT, [&](float t) {
-        if (std::abs(t * perT - spine.z) <= kSameRoot * spine.z) return true;
+        const double here = spine.z / perT;
+        if (std::abs(t - here) <= std::max(kSameRoot * here, kSameTinyRoot)) return true;
         const Vec3d from = Vec3d(0, 0, t * perT) - spine;
         return length(cross(along, from)) <= reach * size;
       });

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "shapes/shape_probe.h"
@@ -246,6 +247,28 @@ TEST(Curves, StrandsOfOneShapeAreLeftOneByOne) {
   ASSERT_EQ(all.size(), 2u);
   EXPECT_NEAR(all[0].p.z, 0, 1e-6);
   EXPECT_NEAR(all[1].p.z, 0.1, 1e-6);
+}
+
+TEST(Curves, NoRootIsFoundTwiceWhereDistancesAreBelowTheNormalNumbers) {
+  const float step = std::numeric_limits<float>::denorm_min();
+  const Curves curve(strand(CurveType::Flat,
+                            {{0, 0, 40 * step},
+                             {100 * step, 0, 40 * step},
+                             {200 * step, 0, 43 * step},
+                             {300 * step, 0, 55 * step}},
+                            step, 0, {}, 0),
+                     {});
+  int hits = 0, again = 0;
+  for (int i = 0; i <= 300; ++i) {
+    const Ray ray = makeRay({static_cast<float>(i) * step, 0, 0}, {0, 0, 1});
+    const auto first = curve.intersect(0, ray, 0, HUGE_VAL, {});
+    if (!first) continue;
+    ++hits;
+    const float start[] = {static_cast<float>(first->t)};
+    again += curve.intersect(0, ray, 0, HUGE_VAL, start) ? 1 : 0;
+  }
+  EXPECT_GT(hits, 200);
+  EXPECT_EQ(again, 0);
 }
 
 TEST(Curves, AreaIsThatOfTheSideThatIsSeen) {
