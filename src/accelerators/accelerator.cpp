@@ -8,6 +8,7 @@
 #include "accelerators/embree_device.h"
 #include "accelerators/impl.h"
 #include "accelerators/query.h"
+#include "base/built_parts.h"
 #include "base/interruption.h"
 
 namespace pbrtmedia {
@@ -201,7 +202,9 @@ void Accelerator::build() {
       leaveIfStopped();
       impl_->attach(*record);
     }
-    if (impl_->scene) rtcCommitScene(impl_->scene);
+    if (!impl_->scene) return;
+    countBuilt(Part::RayTrees);
+    rtcCommitScene(impl_->scene);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/built_parts.h"
 #include "base/math.h"
 
 namespace pbrtmedia {
@@ -60,6 +61,7 @@ float Distribution1D::probability(std::size_t index) const {
 }
 
 Distribution2D::Distribution2D(std::span<const float> weights, std::size_t width, std::size_t height) {
+  countBuilt(Part::LightDistributions);
   rows_.reserve(height);
   std::vector<float> sums(height);
   for (std::size_t y = 0; y < height; ++y) {

@@ -42,7 +42,7 @@ class Camera {
  public:
   virtual ~Camera() = default;
   struct WeightedRay {
-    RayDifferential ray;  ///< world space, unit direction, differentials one pixel apart
+    RayDifferential ray;  ///< world space, unit direction, differentials one pixel apart or none
     float weight = 1;
   };
   /// `film`: raster position in pixels, y down; `lens`, `time`: in [0, 1).
@@ -65,15 +65,20 @@ class Camera {
     return {};
   }
   const AnimatedTransform& worldFromCamera() const { return worldFromCamera_; }
+  /// Rays have no differentials from now on: nobody asks for the footprint of a pixel. Not while rays are
+  /// generated.
+  void leaveOutDifferentials() { wantsDifferentials_ = false; }
 
  protected:
   Camera(const AnimatedTransform& worldFromCamera, float shutterOpen, float shutterClose)
       : worldFromCamera_(worldFromCamera), shutterOpen_(shutterOpen), shutterClose_(shutterClose) {}
   float rayTime(float u) const { return (1 - u) * shutterOpen_ + u * shutterClose_; }
+  bool wantsDifferentials() const { return wantsDifferentials_; }
 
  private:
   AnimatedTransform worldFromCamera_;
   float shutterOpen_, shutterClose_;
+  bool wantsDifferentials_ = true;
 };
 
 }  // namespace pbrtmedia

@@ -36,12 +36,14 @@ Camera::WeightedRay EnvironmentCamera::generateRay(Point2f film, Point2f /*lens*
     return Vector3f(normalize(worldFromCameraNow.vector(camera)));
   };
   WeightedRay r;
-  r.ray.o = r.ray.rxOrigin = r.ray.ryOrigin = Point3f(worldFromCameraNow.point(Vec3d{0, 0, 0}));
+  r.ray.o = Point3f(worldFromCameraNow.point(Vec3d{0, 0, 0}));
   r.ray.d = direction(film.x, film.y);
+  r.ray.time = t;
+  if (!wantsDifferentials()) return r;
+  r.ray.rxOrigin = r.ray.ryOrigin = r.ray.o;
   r.ray.rxDirection = direction(double{film.x} + 1, film.y);
   r.ray.ryDirection = direction(film.x, double{film.y} + 1);
   r.ray.hasDifferentials = true;
-  r.ray.time = t;
   return r;
 }
 

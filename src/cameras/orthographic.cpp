@@ -53,11 +53,13 @@ Camera::WeightedRay OrthographicCamera::generateRay(Point2f film, Point2f lens, 
   }
   WeightedRay r;
   r.ray.o = Point3f(origin);
+  r.ray.d = Vector3f(normalize(direction));
+  r.ray.time = t;
+  if (!wantsDifferentials()) return r;
   r.ray.rxOrigin = Point3f(origin + placed.right);
   r.ray.ryOrigin = Point3f(origin + placed.down);
-  r.ray.d = r.ray.rxDirection = r.ray.ryDirection = Vector3f(normalize(direction));
+  r.ray.rxDirection = r.ray.ryDirection = r.ray.d;
   r.ray.hasDifferentials = true;
-  r.ray.time = t;
   return r;
 }
 

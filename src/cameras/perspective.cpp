@@ -60,12 +60,14 @@ Camera::WeightedRay PerspectiveCamera::generateRay(Point2f film, Point2f lens, f
     direction -= offset * inverseFocalDistance_;
   }
   WeightedRay r;
-  r.ray.o = r.ray.rxOrigin = r.ray.ryOrigin = Point3f(origin);
+  r.ray.o = Point3f(origin);
   r.ray.d = Vector3f(normalize(direction));
+  r.ray.time = t;
+  if (!wantsDifferentials()) return r;
+  r.ray.rxOrigin = r.ray.ryOrigin = r.ray.o;
   r.ray.rxDirection = Vector3f(normalize(direction + placed.right));
   r.ray.ryDirection = Vector3f(normalize(direction + placed.down));
   r.ray.hasDifferentials = true;
-  r.ray.time = t;
   return r;
 }
 

@@ -78,6 +78,7 @@ Camera::WeightedRay RealisticCamera::generateRay(Point2f film, Point2f lens, flo
   r.weight = static_cast<float>(traced->weight);
   r.ray.o = Point3f(o);
   r.ray.d = Vector3f(d);
+  if (!wantsDifferentials()) return r;
   // Forward differences, or backward where the neighbour is stopped by the lens.
   const auto shift = [&](double x, double y, Point3f& origin, Vector3f& towards) {
     for (const double step : {kStep, -kStep}) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/built_parts.h"
 #include "construct/cameras.h"
 #include "construct/film.h"
 #include "construct/integrators.h"
@@ -154,6 +155,11 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
                         [&] { return std::make_unique<Film>(film.settings, *film.filter); });
     checkPixelBounds(scene, *integrator, *made.film);
     made.scene = world.build(integrator->rendersMedia);
+    if (textures.wantFootprints()) {
+      countBuilt(Part::RayDifferentials);
+    } else {
+      made.camera->leaveOutDifferentials();
+    }
     if (integrator->tracesFromLights) {
       made.scene->prepareEmission();
       world.warnOfCurves(scene.integrator.location, "Integrator \"" + scene.integrator.type + '"',

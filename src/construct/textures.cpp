@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/built_parts.h"
 #include "construct/enum_parameter.h"
 #include "construct/plugins.h"
 #include "construct/tolerance.h"
@@ -317,6 +318,9 @@ std::unique_ptr<Texture<T>> Textures::build(std::uint32_t texture, const Make& m
                                      " look-ups of the textures it refers to");
   }
   ++builtCount_;
+  if (d.type == "constant") return made;
+  countBuilt(Part::Textures);
+  wantFootprints_ = wantFootprints_ || (d.type != "scale" && d.type != "mix");  // these have inputs that do
   return made;
 }
 

@@ -36,6 +36,8 @@ class Textures {
 
   std::size_t definedCount() const { return plans_.size(); }
   std::size_t builtCount() const { return builtCount_; }
+  /// Whether some texture that was built, or a bump map of it, looks at the footprint of a pixel.
+  bool wantFootprints() const { return wantFootprints_; }
 
   /// Keeps everything built alive: to be owned by the scene.
   struct Built {
@@ -82,6 +84,7 @@ class Textures {
   std::vector<const FloatTexture*> builtFloats_;
   std::vector<const RgbTexture*> builtRgbs_;
   std::size_t builtCount_ = 0;
+  bool wantFootprints_ = false;
   std::vector<std::size_t> evaluations_;  ///< of each built texture: look-ups of textures for one value
   std::size_t evaluationsOfInputs_ = 0;   ///< of the texture that is being built
   int nesting_ = 0;                       ///< textures that are being built, each for the next

@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "base/built_parts.h"
 #include "base/diagnostics.h"
 
 namespace pbrtmedia {
@@ -44,6 +45,7 @@ LearnedBounds::LearnedBounds(const SuperVoxelLattice& cells, const Params& param
     most_[i].store(params.initial, std::memory_order_relaxed);
     least_[i].store(kUnseen, std::memory_order_relaxed);
   }
+  countBuilt(Part::LearnedBounds);
   progress_.cells = inForce_.cellCount();
   progress_.maximum = params.initial;
 }

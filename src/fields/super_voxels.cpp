@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/built_parts.h"
 #include "base/interruption.h"
 #include "base/parallel.h"
 
@@ -42,6 +43,7 @@ SuperVoxels::SuperVoxels(const SuperVoxelLattice& lattice,
                          const std::function<SuperVoxel(std::int64_t, std::int64_t, std::int64_t)>& boundOf)
     : lattice_(lattice),
       inverseCellSize_(1 / lattice.cellSize.x, 1 / lattice.cellSize.y, 1 / lattice.cellSize.z) {
+  countBuilt(Part::SuperVoxelGrids);
   const LatticeShape& shape = lattice.shape;
   bounds_.resize(static_cast<std::size_t>(shape.stored()), Bound{kApron, 0});
   means_.resize(bounds_.size());

@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/built_parts.h"
 #include "base/diagnostics.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -120,6 +121,7 @@ Film::Film(const Settings& settings, const Filter& filter)
 void Film::setLayers(const LayerSet& layers) {
   checkMemory(pixelBounds_, filter_.radius(), layers);
   settings_.layers = layers;
+  countBuilt(Part::Layers, layers.sumCount());
   state_.layers.assign(state_.sums.size() * layers.sumCount(), 0);
 }
 
@@ -217,7 +219,9 @@ std::vector<double> Film::otherSums() const {
 }
 
 void Film::keepHalves() {
-  if (!hasHalves()) state_.odd.resize(state_.sums.size());
+  if (hasHalves()) return;
+  countBuilt(Part::FilmHalves);
+  state_.odd.resize(state_.sums.size());
 }
 
 SplatSum Film::estimatedError(std::size_t pixel) const {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/built_parts.h"
 #include "base/parallel.h"
 #include "film/film.h"
 
@@ -28,6 +29,7 @@ void Film::addSplats(std::span<const SplatBuffer> units, const SplatPaths& paths
   state_.paths.count += paths.count;
   state_.paths.area = paths.area;
   state_.oddPaths += oddPaths;
+  if (state_.splats.empty()) countBuilt(Part::SplatBuffers);
   state_.splats.resize(state_.sums.size());
   if (hasHalves()) state_.oddSplats.resize(state_.sums.size());
   if (settings_.layers.has(Layer::Variance)) state_.splatSquares.resize(state_.sums.size());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/built_parts.h"
 #include "base/distribution.h"
 #include "base/math.h"
 #include "lighting/spatial_light_selector.h"
@@ -44,6 +45,7 @@ class PowerLightSelector final : public LightSelector {
     const auto least = static_cast<float>(kSmallestShare * sum / static_cast<double>(weights.size()));
     for (float& w : weights) w = std::max(w, least);
     lights_ = Distribution1D(weights);
+    countBuilt(Part::LightDistributions);
   }
   Choice choose(Point3f, float u) const override {
     const Distribution1D::Choice c = lights_.choose(u);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/built_parts.h"
 #include "base/math.h"
 
 namespace pbrtmedia {
@@ -66,6 +67,7 @@ SpatialLightSelector::SpatialLightSelector(std::span<const Illuminant* const> li
   voxelsPerLength_ = {perLength(resolution_.x, diagonal.x), perLength(resolution_.y, diagonal.y),
                       perLength(resolution_.z, diagonal.z)};
   voxelCount_ = count(resolution_);
+  countBuilt(Part::LightDistributions);
   tables_ = std::make_unique<std::atomic<const Distribution1D*>[]>(voxelCount_);
   for (std::size_t i = 1; i <= probeCount(lights_.size()); ++i) {
     probes_.push_back({{radicalInverse(2, i), radicalInverse(3, i), radicalInverse(5, i)},

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <vector>
 
+#include "base/built_parts.h"
 #include "base/parallel.h"
 #include "construct/construct.h"
 #include "construct/scene_identity.h"
@@ -224,6 +225,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   statistics.threads = threadCount();
   statistics.parse = parseTime;
 
+  const BuiltParts builtBefore = builtParts();
   const Stopwatch constructing;
   std::optional<BuiltWorld> world;
   try {
@@ -267,6 +269,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
                       : writeRendered(scene.outfile, image, options, status);
   if (!options.samples) run.bounds.save(id.name, *scene.scene);
   statistics.write = writing.elapsed();
+  statistics.built = builtParts() - builtBefore;
   statistics.peakMemory = peakMemoryBytes();
   tell(result, statistics, run, *scene.scene);
   run.watching.finish(image, result, written);

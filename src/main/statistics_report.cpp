@@ -39,6 +39,15 @@ nlohmann::ordered_json toJson(const RenderCounters& c) {
           {"droppedSamples", dropped}};
 }
 
+nlohmann::ordered_json toJson(const BuiltParts& built) {
+  nlohmann::ordered_json all;
+  for (std::size_t i = 0; i < kPartCount; ++i) {
+    const auto part = static_cast<Part>(i);
+    all[std::string(nameOf(part))] = built[part];
+  }
+  return all;
+}
+
 /// Share of the cells looked up in so far whose bound the pass found to hold.
 double boundingShare(const LearningProgress& p) {
   return p.visited > 0 ? 1 - static_cast<double>(p.raised) / static_cast<double>(p.visited) : 1;
@@ -156,6 +165,7 @@ nlohmann::ordered_json toJson(const RenderStatistics& s) {
           {"parts", toJson(s.parts)},
           {"ranks", toJson(s.ranks)},
           {"counters", toJson(s.counters)},
+          {"built", toJson(s.built)},
           {"learnedBounds", toJson(s.learning)},
           {"peakMemoryBytes", s.peakMemory}};
 }

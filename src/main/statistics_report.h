@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/built_parts.h"
 #include "base/statistics.h"
 #include "base/stopwatch.h"
 #include "main/checkpoint_file.h"
@@ -40,6 +41,7 @@ struct RenderStatistics {
   std::optional<DerivativeRecord> derivative;          ///< where the image is one
   std::vector<RenderPart> parts;                       ///< one for each process that rendered some of it
   RenderCounters counters;
+  BuiltParts built;                      ///< for the scene and while it was rendered
   std::vector<LearningRecord> learning;  ///< of media with progressive bounds
   std::size_t peakMemory = 0;            ///< bytes
 };

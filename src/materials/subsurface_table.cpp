@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/built_parts.h"
 #include "base/math.h"
 #include "materials/catmull_rom.h"
 #include "materials/fresnel.h"
@@ -84,6 +85,7 @@ SubsurfaceTable::SubsurfaceTable(float g, float eta)
       profile_(kAlbedos * kRadii),
       cumulative_(kAlbedos * kRadii),
       effective_(kAlbedos) {
+  countBuilt(Part::SubsurfaceTables);
   for (std::size_t i = 0; i < kAlbedos; ++i) {
     const double share = static_cast<double>(i) / (kAlbedos - 1);
     albedos_[i] = static_cast<float>(std::expm1(-kAlbedoSpread * share) / std::expm1(-kAlbedoSpread));

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/built_parts.h"
 #include "base/diagnostics.h"
 #include "fields/explore_bounds.h"
 #include "media/coefficients.h"
@@ -64,6 +65,8 @@ FieldMedium::FieldMedium(const FieldMediumParams& params, std::string_view typeN
       emission_(params.sigmaA * params.le, sigmaT_, params.emissionPattern, *kernel_) {
   checkCoefficients(params.sigmaA, params.sigmaS, name());
   checkEmission(params.le, params.sigmaA * params.le, name());
+  countBuilt(Part::Media);
+  if (!sigmaT_.isGrey()) countBuilt(Part::ChromaticMedia);
   albedo_ = albedoOf(sigmaS_, sigmaT_);
   estimator_ = params.estimator ? *params.estimator
                                 : chooseEstimator({.lines = lineStatistics(*kernel_),

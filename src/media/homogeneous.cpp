@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "base/built_parts.h"
 #include "freeflight/inverted_depth.h"
 #include "media/coefficients.h"
 #include "media/emission/box_emission.h"
@@ -32,6 +33,8 @@ HomogeneousMedium::HomogeneousMedium(Params params)
       grey_(sigmaT_.isGrey()) {
   checkCoefficients(params.sigmaA, params.sigmaS, name());
   checkEmission(params.le, emission_, name());
+  countBuilt(Part::Media);
+  if (!grey_) countBuilt(Part::ChromaticMedia);
   albedo_ = albedoOf(sigmaS_, sigmaT_);
 }
 

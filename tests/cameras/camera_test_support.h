@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "base/rng.h"
 #include "cameras/camera.h"
+#include "samplers/sampler.h"
 
 namespace pbrtmedia::test {
 
@@ -17,8 +21,28 @@ inline void expectNear(Vector3f found, Vec3d expected, double tolerance) {
 
 inline constexpr double kFloatRounding = 3e-7;  // a few roundings of numbers near 1
 
+/// Leaves the differentials of `camera` out.
+inline void expectTheSameRaysWithoutDifferentials(Camera& camera, Point2f fullResolution) {
+  Rng rng(8);
+  std::vector<std::pair<CameraSample, Camera::WeightedRay>> before;
+  for (int i = 0; i < 50; ++i) {
+    const Point2f film{rng.uniform() * fullResolution.x, rng.uniform() * fullResolution.y};
+    const CameraSample s{film, {rng.uniform(), rng.uniform()}, rng.uniform()};
+    before.emplace_back(s, camera.generateRay(s.film, s.lens, s.time));
+  }
+  camera.leaveOutDifferentials();
+  for (const auto& [s, with] : before) {
+    const Camera::WeightedRay without = camera.generateRay(s.film, s.lens, s.time);
+    EXPECT_FALSE(without.ray.hasDifferentials);
+    EXPECT_EQ(without.weight, with.weight);
+    EXPECT_EQ(without.ray.o, with.ray.o);
+    EXPECT_EQ(without.ray.d, with.ray.d);
+    EXPECT_EQ(without.ray.time, with.ray.time);
+  }
+}
+
 /// The auxiliary rays are the rays of the neighbouring pixels at the same lens point and time.
-inline void expectTrueDifferentials(const Camera& camera, Point2f fullResolution) {
+inline void expectTrueDifferentials(Camera&& camera, Point2f fullResolution) {
   Rng rng(7);
   for (int i = 0; i < 200; ++i) {
     const Point2f film{rng.uniform() * fullResolution.x, rng.uniform() * fullResolution.y};
@@ -35,6 +59,7 @@ inline void expectTrueDifferentials(const Camera& camera, Point2f fullResolution
     expectNear(ray.rxDirection, Vec3d(right.d), 1e-6);
     expectNear(ray.ryDirection, Vec3d(below.d), 1e-6);
   }
+  expectTheSameRaysWithoutDifferentials(camera, fullResolution);
 }
 
 }  // namespace pbrtmedia::test

@@ -115,7 +115,7 @@ TEST(RealisticCamera, RaysThatTheLensStopsHaveNoWeight) {
 
 TEST(RealisticCamera, DifferentialsAreThoseOfNeighbouringPixels) {
   const AnimatedTransform place(Transform::translate({1, 2, 3}) * Transform::rotate(30, {0, 1, 0}));
-  const RealisticCamera camera(place, lens(), params());
+  RealisticCamera camera(place, lens(), params());
   Rng rng(7);
   for (int i = 0; i < 100; ++i) {
     const Point2f film{20 + 360 * rng.uniform(), 20 + 260 * rng.uniform()},
@@ -129,6 +129,7 @@ TEST(RealisticCamera, DifferentialsAreThoseOfNeighbouringPixels) {
     expectNear(ray.ray.rxOrigin, Vec3d(right.ray.o), 2e-5);
     expectNear(ray.ray.ryOrigin, Vec3d(below.ray.o), 2e-5);
   }
+  test::expectTheSameRaysWithoutDifferentials(camera, {400, 300});
 }
 
 TEST(RealisticCamera, HasNoImportance) {

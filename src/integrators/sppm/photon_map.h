@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/bounds.h"
+#include "base/built_parts.h"
 
 namespace pbrtmedia {
 
@@ -55,6 +56,7 @@ inline std::uint64_t mortonCode(Point3f p, const Bounds3f& box) {
 template <class P>
 PhotonMap<P>::PhotonMap(const std::vector<P>& points) {
   if (points.empty()) return;
+  countBuilt(Part::PhotonMaps);
   Bounds3f all;
   for (const P& point : points) all.expand(point.p);
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
