@@ -145,27 +145,31 @@ void Film::accumulate(const SamplePass& pass) {
   CHECK(pass.bounds() == sampleBounds_) << "a pass must cover the sample bounds of its film";
   parallelFor(static_cast<std::size_t>(endRow_ - firstRow_), [&](std::size_t row) {
     const int y = firstRow_ + static_cast<int>(row);
-    accumulateRow(pass, y, 0, 1, state_.sums);
-    if (hasHalves()) accumulateRow(pass, y, pass.firstIndex() % 2 == 0 ? 1 : 0, 2, state_.odd);
+    for (int s = 0; s < pass.samplesPerPixel(); ++s) {
+      const bool isOfHalf = hasHalves() && (pass.firstIndex() + s) % 2 != 0;
+      isOfHalf ? accumulateRow<true>(pass, y, s) : accumulateRow<false>(pass, y, s);
+    }
     if (!settings_.layers.isEmpty()) accumulateLayersOfRow(pass, y);
   });
 }
 
-void Film::accumulateRow(const SamplePass& pass, int y, int firstSlot, int step,
-                         std::vector<Sums>& all) const {
-  Sums* const row = all.data() + static_cast<std::ptrdiff_t>(y - pixelBounds_.min.y) * pixelBounds_.width();
-  for (int s = firstSlot; s < pass.samplesPerPixel(); s += step) {
-    for (int x = pixelBounds_.min.x; x < pixelBounds_.max.x; ++x) {
-      Sums sums = row[x - pixelBounds_.min.x];
-      visitNeighbours(pass, filter_, s, {x, y},
-                      [&](const SamplePass::Sample& sample, double weight, Point2i) {
-                        sums.r += weight * sample.radiance.r;
-                        sums.g += weight * sample.radiance.g;
-                        sums.b += weight * sample.radiance.b;
-                        sums.weight += weight;
-                      });
-      row[x - pixelBounds_.min.x] = sums;
-    }
+template <bool isOfHalf>
+void Film::accumulateRow(const SamplePass& pass, int y, int slot) {
+  const auto first = static_cast<std::ptrdiff_t>(y - pixelBounds_.min.y) * pixelBounds_.width();
+  Sums* const row = state_.sums.data() + first;
+  Sums* const oddRow = isOfHalf ? state_.odd.data() + first : nullptr;
+  for (int x = pixelBounds_.min.x; x < pixelBounds_.max.x; ++x) {
+    const std::ptrdiff_t column = x - pixelBounds_.min.x;
+    Sums sums = row[column], odd = isOfHalf ? oddRow[column] : Sums{};
+    visitNeighbours(pass, filter_, slot, {x, y},
+                    [&](const SamplePass::Sample& sample, double weight, Point2i) {
+                      const Sums part{weight * sample.radiance.r, weight * sample.radiance.g,
+                                      weight * sample.radiance.b, weight};
+                      sums += part;
+                      if constexpr (isOfHalf) odd += part;
+                    });
+    row[column] = sums;
+    if constexpr (isOfHalf) oddRow[column] = odd;
   }
 }
 

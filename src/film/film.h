@@ -116,8 +116,9 @@ class Film {
   bool restore(State state);
 
  private:
-  /// Slots firstSlot, firstSlot + step ... of the pass, added to `sums`.
-  void accumulateRow(const SamplePass& pass, int y, int firstSlot, int step, std::vector<Sums>& sums) const;
+  /// Adds samples of one index to a row of the sums, and of those of the odd half too.
+  template <bool isOfHalf>
+  void accumulateRow(const SamplePass& pass, int y, int slot);
   void accumulateLayersOfRow(const SamplePass& pass, int y);
   void addSplatsToRows(std::span<const Splat* const> splats, int firstRow, int lastRow);
   /// Adds the squares of what each path brings; the splats of a path stand side by side.
