@@ -13,8 +13,9 @@ struct FilmTerm {
 };
 
 /// Adds the sum of factor times film, colour by colour, as if it had been one render with such samples: what
-/// the samples weigh is added once. Films without splats and layers. False, changing nothing, for films of
-/// other sizes, without the halves that `film` has, or whose samples weigh differently. Parallel over rows.
+/// the samples weigh, and how many paths bring splats, is added once. Films without layers. False, changing
+/// nothing, for films of other sizes, without the halves that `film` has, or whose samples weigh differently.
+/// Parallel over rows.
 bool addCombination(Film& film, std::span<const FilmTerm> terms);
 
 }  // namespace pbrtmedia

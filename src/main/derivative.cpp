@@ -36,11 +36,9 @@ void checkScene(const Construction& scene, const std::string& variable) {
                "by more than the value; give it others (\"string bounds\" \"exact\" or \"constant\")");
   }
   const std::string name(scene.integrator->typeName());
-  if (scene.integrator->makesSplats() || !scene.integrator->whyInOnePiece().empty()) {
-    refuse(variable,
-           "integrator \"" + name +
-               "\" sends light paths or photons, whose samples are none of one pixel; \"volpath\" or "
-               "\"path\" can be subtracted sample by sample");
+  if (const std::string why = scene.integrator->whyInOnePiece(); !why.empty()) {
+    refuse(variable, "images of integrator \"" + name + "\" cannot be subtracted sample by sample: " + why +
+                         "; those of \"bdpt\", \"volpath\" and \"path\" can");
   }
   if (!scene.film->layers().isEmpty())
     refuse(variable, "layers (" + scene.film->layers().text() + ") are of one image; leave them out");

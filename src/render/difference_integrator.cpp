@@ -32,6 +32,10 @@ Film::State emptied(const Film& film) {
   Film::State state = film.state();
   std::fill(state.sums.begin(), state.sums.end(), Film::Sums());
   std::fill(state.odd.begin(), state.odd.end(), Film::Sums());
+  state.splats.clear();
+  state.oddSplats.clear();
+  state.paths = {};
+  state.oddPaths = 0;
   return state;
 }
 

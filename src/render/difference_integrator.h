@@ -20,7 +20,7 @@ namespace pbrtmedia {
 class DifferenceIntegrator final : public Integrator {
  public:
   /// `scene`: the one at the value itself. `samplesPerPass`: nothing: 1 / 64 of all, 1 to 16. `scene` and
-  /// `family` must outlive the object, and their scenes learn no bounds and make no splats.
+  /// `family` must outlive the object, and their scenes learn no bounds.
   DifferenceIntegrator(const Scene& scene, SceneFamily& family, const DifferenceSchedule& schedule,
                        std::optional<int> samplesPerPass)
       : Integrator(scene), family_(family), schedule_(schedule), samplesPerPass_(samplesPerPass) {}

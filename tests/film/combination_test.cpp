@@ -47,6 +47,48 @@ TEST(Combination, HasHalves) {
   EXPECT_FALSE(addCombination(sum, other));
 }
 
+/// One path brings `value` to the first pixel, another nothing.
+Film withSplat(float value, bool halves = false) {
+  Film film({.resolution = {2, 1}}, BoxFilter({}));
+  film.keepNegatives();
+  if (halves) film.keepHalves();
+  SplatBuffer splats;
+  splats.begin(1, /*isOdd=*/true);
+  splats.add({.5f, .5f}, Rgb(value, 0, 0));
+  film.addSplats({&splats, 1}, {2, 1}, 1);
+  return film;
+}
+
+TEST(Combination, HasSplatsOfAsManyPathsAsOneFilm) {
+  Film sum({.resolution = {2, 1}}, BoxFilter({}));
+  sum.keepNegatives();
+  const Film a = withSplat(5), b = withSplat(4);
+  const std::array terms = {FilmTerm{&a, 2}, FilmTerm{&b, -3}};
+  for (int pass = 0; pass < 2; ++pass) ASSERT_TRUE(addCombination(sum, terms));
+  EXPECT_EQ(sum.state().splats[0], (SplatSum{-4, 0, 0}));
+  EXPECT_EQ(sum.state().splats[1], SplatSum{});
+  EXPECT_EQ(sum.state().paths, (SplatPaths{4, 1}));
+  EXPECT_EQ(sum.state().oddPaths, 2u);
+  EXPECT_TRUE(sum.state().oddSplats.empty());
+  EXPECT_EQ(sum.develop().rgb(0, 0).r, -1) << "the mean of four paths";
+}
+
+TEST(Combination, HasSplatsOfHalves) {
+  Film sum({.resolution = {2, 1}}, BoxFilter({}));
+  sum.keepHalves();
+  const Film a = withSplat(5, true), b = withSplat(4, true);
+  const std::array terms = {FilmTerm{&a, 2}, FilmTerm{&b, -3}};
+  ASSERT_TRUE(addCombination(sum, terms));
+  EXPECT_EQ(sum.state().oddSplats[0], (SplatSum{-2, 0, 0}));
+}
+
+TEST(Combination, IsRefusedWherePathsAreOthers) {
+  Film sum({.resolution = {2, 1}}, BoxFilter({}));
+  const Film a = withSplat(5), b({.resolution = {2, 1}}, BoxFilter({}));
+  const std::array terms = {FilmTerm{&a, 1}, FilmTerm{&b, -1}};
+  EXPECT_FALSE(addCombination(sum, terms));
+}
+
 TEST(Combination, IsRefusedWhereSamplesWeighDifferently) {
   Film sum = film(10);
   const Film::State before = sum.state();

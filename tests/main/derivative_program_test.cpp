@@ -125,10 +125,12 @@ TEST_F(DerivativeProgram, RefusesWhatItIsNotOf) {
   expectFails("--derivative lamp --step .1 --layers depth", "layers (depth) are of one image");
   expectFails("--derivative lamp --step .1 --samples 0:2", "the samples of a pass share their step");
   expectFails("--derivative lamp --step .1 --bounds-cache b", "no bounds");
-  write("", "\"bdpt\"");
-  expectFails("--derivative lamp --step .1", "integrator \"bdpt\" sends light paths or photons");
+  write("", "\"mlt\"");
+  expectFails("--derivative lamp --step .1",
+              "images of integrator \"mlt\" cannot be subtracted sample by sample: the chains");
   write("", "\"sppm\"");
-  expectFails("--derivative lamp --step .1", "integrator \"sppm\" sends light paths or photons");
+  expectFails("--derivative lamp --step .1",
+              "images of integrator \"sppm\" cannot be subtracted sample by sample: the radii");
   write("\"float scale\" $lamp");
   expectFails("--derivative lamp --step .1", "the film, the number of samples or the integrator is another");
   write("", "\"path\"", "Material \"glass\" \"float eta\" $lamp WorldEnd WorldBegin");

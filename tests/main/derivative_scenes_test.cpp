@@ -109,6 +109,34 @@ TEST(Derivative, OfALightThatMovesIsDebiased) {
   EXPECT_GT(std::abs(none - slope), 2 * kMaxAbsZ * single.standardError) << "one step is seen to be biased";
 }
 
+/// The plane of `movedLight`, seen from above between -1 and 1.
+std::string seenByBdpt(const std::string& x) {
+  return "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4\nSampler \"random\"\n"
+         "Integrator \"bdpt\" \"integer maxdepth\" 1\nLookAt 0 0 5  0 0 0  0 1 0\n"
+         "Camera \"orthographic\" \"float screenwindow\" [ -1 1 -1 1 ]\nWorldBegin\n"
+         "Material \"matte\" \"rgb Kd\" [ 1 1 1 ]\nLightSource \"point\" \"point from\" [ " +
+         x + " 0 2 ] \"rgb I\" [ 3.14159274 3.14159274 3.14159274 ]\n" + kPlane;
+}
+/// The mean of what is seen, by the midpoint rule.
+double seenMean(double x) {
+  constexpr int kCells = 400;
+  double sum = 0;
+  for (int j = 0; j < kCells; ++j) {
+    for (int i = 0; i < kCells; ++i) {
+      const double dx = (2 * i + 1.0) / kCells - 1 - x, dy = (2 * j + 1.0) / kCells - 1;
+      sum += 2 / std::pow(dx * dx + dy * dy + 4, 1.5);
+    }
+  }
+  return sum / (kCells * kCells);
+}
+
+TEST(Derivative, OfBdptHasThatOfItsLightPaths) {
+  const double x = 1.5, h = .0625, difference = (seenMean(x + h) - seenMean(x)) / h;
+  const ZTest z = zTest(means(seenByBdpt, {.value = x, .step = h}, 64, 24), difference);
+  EXPECT_LT(std::abs(z.z()), kMaxAbsZ) << z;
+  EXPECT_TRUE(z.sees()) << z;
+}
+
 /// The matte material of Oren and Nayar, seen along the normal: Kd / pi A(sigma), sigma in degrees.
 std::string roughened(const std::string& sigma) {
   return lookingDown(2, "\"path\" \"integer maxdepth\" 1") +
