@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/path/path_tracer.h"
 
+#include "integrators/path/led_flight.h"
 #include "materials/bsdf.h"
 #include "materials/material.h"
 #include "media/medium.h"
@@ -23,6 +24,9 @@ constexpr float kMediumRouletteWeight = 0.03f;
 /// Channels whose extinctions differ by more than this factor are followed one by one. Three paths cost 2 to
 /// 2.6 times one; the variance of one reaches that at factors of 2.5 to 4 (cubes of optical depth 2 to 40).
 constexpr float kSplitFactor = 3;
+
+/// Flights on segments before the scattering of this number are led by stratified numbers.
+constexpr int kLedBounces = 1;
 
 /// Whether sampling the BSDF reaches every direction in which it scatters. With a shading normal, or glossy
 /// lobes, some can be reached by light samples only.
@@ -148,7 +152,7 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, PathEvent& even
   const std::optional<LitStretch> lit =
       setup_.singleScattering ? setup_.singleScattering->lit(stretch) : std::nullopt;
   if (lit) lightStretch(*lit, hit, start);
-  const MediumFlight flight = stretch.sampleFreeFlight(beta_, context_.stream(), counters_);
+  const MediumFlight flight = fly(stretch);
   beta_ *= flight.weight;
   if (beta_.isBlack()) return false;
   // A path that media have dimmed on its way has little part in the variance. What is seen directly stays
@@ -163,6 +167,12 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, PathEvent& even
   if (!isFinite(medium_.at.p)) return false;  // beyond what coordinates can tell: nothing is out there
   event = PathEvent::Medium;
   return false;
+}
+
+MediumFlight PathTracer::fly(const MediaStretch& stretch) {
+  if (bounces_ >= kLedBounces) return stretch.sampleFreeFlight(beta_, context_.stream(), counters_);
+  const LedFlight led(context_.rng, context_.pixelSample, ledFlights_++);
+  return stretch.sampleFreeFlight(beta_, context_.stream(), counters_);
 }
 
 /// Whether from here on each channel is better followed alone: a path that all share weighs them by the mean

@@ -70,6 +70,7 @@ class PathTracer {
   void tellScattering();
   PathEvent followWay(Way& way);
   bool passMedium(const Way& way, const SceneHit* hit, PathEvent& event);
+  MediumFlight fly(const MediaStretch& stretch);
   bool splitsChannels() const;
   void followChannels(const Way& way);
   void lightStretch(const LitStretch& stretch, const SceneHit* hit, const BoundaryPlane& start);
@@ -125,7 +126,8 @@ class PathTracer {
 
   Rgb beta_{1.0f}, radiance_;
   int bounces_ = 0;
-  int lastVertex_;  ///< number of the last scattering
+  std::uint64_t ledFlights_ = 0;  ///< so far
+  int lastVertex_;                ///< number of the last scattering
   ScatteringsInPlace inPlace_;
   float etaScale_ = 1;  ///< undoes the radiance scaling of refraction in roulette decisions
   // The vertex the current segment starts on, as multiple importance sampling sees it.
