@@ -162,8 +162,8 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
     }
     if (integrator->tracesFromLights) {
       made.scene->prepareEmission();
-      world.warnOfCurves(scene.integrator.location, "Integrator \"" + scene.integrator.type + '"',
-                         integrator->weighsBothEnds);
+      if (!integrator->weighsBothEnds)
+        world.warnOfCurves(scene.integrator.location, "Integrator \"" + scene.integrator.type + '"');
     }
     CameraMedium cameraMedium;
     if (integrator->rendersMedia) {
@@ -200,7 +200,7 @@ std::optional<Construction> construct(SceneDescription& scene, const ConstructOp
         scene.integrator.given ? scene.integrator.location : scene.worldEnd,
         "Integrator \"" + scene.integrator.type +
             "\" does not render scattering below surfaces, so materials that have it are like "
-            "clear glass, as in PBRT-v3; \"path\" and \"volpath\" render it");
+            "clear glass, as in PBRT-v3; \"path\", \"volpath\", \"bdpt\" and \"mlt\" render it");
   }
   made.report = world.report();
   return made;

@@ -23,6 +23,7 @@
 #include "lighting/light_strategy.h"
 #include "media/medium.h"
 #include "scene/param_reader.h"
+#include "world/media_topology.h"
 
 namespace pbrtmedia {
 namespace {
@@ -130,6 +131,22 @@ std::int64_t readIterations(ParamReader& in, const ConstructOptions& options) {
   return options.quick ? std::max(1, asked / kQuick) : asked;
 }
 
+/// An emissive medium of which light paths start in no part, or not in all; null: there is none.
+const Medium* emitterWithoutEnd(const Scene& scene, const CameraMedium& camera) {
+  for (std::size_t i = 0; i < camera.state().activeCount(); ++i) {
+    const PlacedMedium m = camera.state().active(i);
+    if (m.medium->isEmissive() && !scene.lightOf(m)) return m.medium;
+  }
+  if (!scene.hasEmissiveMedia()) return nullptr;
+  const MediaTopology media(scene, camera);
+  for (const Medium* medium : scene.media()) {
+    const Bounds3f own = medium->bounds();
+    const bool isBounded = own.isEmpty() || maxComponent(own.diagonal()) < kInfinity;
+    if (medium->isEmissive() && !isBounded && !media.isConfined(medium)) return medium;
+  }
+  return nullptr;
+}
+
 /// What photons cannot tell of media, at the Integrator.
 void checkMediaForPhotons(const Scene& scene, const CameraMedium& camera, const SourceLocation& at,
                           Diagnostics& diagnostics) {
@@ -140,12 +157,13 @@ void checkMediaForPhotons(const Scene& scene, const CameraMedium& camera, const 
                          "\" has a law other than the exponential, under which what photons find from the "
                          "light is not what paths find from the camera; \"volpath\" renders it");
   }
-  if (scene.hasEmissiveMedia() || camera.state().isEmissive()) {
+  if (const Medium* const medium = emitterWithoutEnd(scene, camera)) {
     diagnostics.warning(
         at,
-        "Integrator \"sppm\": media that emit send no photons: they are seen, and light what "
-        "paths from the camera meet first, but what is scattered of their light lights nothing "
-        "else; \"volpath\" renders that too");
+        "Integrator \"sppm\": medium \"" + medium->name() +
+            "\" emits, and as nothing encloses it there is no place for its photons to start: it is seen, "
+            "and lights what paths from the camera meet first, but what is scattered of its light lights "
+            "nothing else; enclose it in a surface of material \"none\", or take \"volpath\"");
   }
 }
 
@@ -201,12 +219,9 @@ IntegratorPlan readSppm(ParamReader& in, const ConstructOptions& options) {
                         const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
     checkMediaForPhotons(scene, cameraMedium, at, *diagnostics);
     std::unique_ptr<const LightSelector> selector, photonSelector;
-    if (!scene.illuminants().empty())
+    if (!scene.illuminants().empty()) {
       selector = makeLightSelector(LightStrategy::Spatial, scene.illuminants(), scene.bounds());
-    if (!scene.lights().empty()) {
-      const std::span<const Illuminant* const> all = scene.illuminants();
-      photonSelector =
-          makeLightSelector(LightStrategy::Power, all.first(scene.lights().size()), scene.bounds());
+      photonSelector = makeLightSelector(LightStrategy::Power, scene.illuminants(), scene.bounds());
     }
     return std::make_unique<SppmIntegrator>(scene, p, std::move(selector), std::move(photonSelector),
                                             std::move(cameraMedium));
@@ -219,25 +234,36 @@ IntegratorPlan readSppm(ParamReader& in, const ConstructOptions& options) {
           .hasNegativeSamples = debias == Debias::Single || debias == Debias::ProgressiveUnbiased};
 }
 
+/// What images of strategies are to show. PBRT-v3 makes them of short paths only, and so it makes the image.
+void readStrategyView(ParamReader& in, BdptParams& p) {
+  const bool strategies = in.findBool("visualizestrategies", false),
+             weights = in.findBool("visualizeweights", false);
+  if (!strategies && !weights) return;
+  p.view = weights ? StrategyView::Weighted : StrategyView::Unweighted;
+  if (p.maxDepth <= kMostShownDepth) return;
+  const char* const name = weights ? "visualizeweights" : "visualizestrategies";
+  in.diagnostics().warning(in.locationOf(ParamKind::Bool, name),
+                           in.context() + ": \"" + name + "\" limits \"maxdepth\" to " +
+                               std::to_string(kMostShownDepth) + ", as in PBRT-v3 (found " +
+                               std::to_string(p.maxDepth) +
+                               "): light that scatters more often is missing; leave it out for the image");
+  p.maxDepth = kMostShownDepth;
+}
+
 IntegratorPlan readBdpt(ParamReader& in, const ConstructOptions&) {
   BdptParams p;
   p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   const std::string_view strategy = readLightSampleStrategy(in, 1);
-  for (const std::string_view name : {"visualizestrategies", "visualizeweights"}) {
-    if (!in.findBool(name, false)) continue;
-    in.diagnostics().tolerated(in.locationOf(ParamKind::Bool, name),
-                               in.context() + ": \"" + std::string(name) +
-                                   "\" has no effect: PBRT-v3 writes an image for each strategy, here only "
-                                   "the image of all of them is made");
-  }
+  readStrategyView(in, p);
   // Light subpaths start before anybody knows where they are looked at from.
   const std::string_view starts = strategy == "uniform" ? "uniform" : "power";
   return {.make = [=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
-            return std::make_unique<BdptIntegrator>(scene, p, selectorFor(lightsOf(scene), scene, strategy),
-                                                    selectorFor(lightsOf(scene), scene, starts),
-                                                    std::move(cameraMedium));
+            return std::make_unique<BdptIntegrator>(
+                scene, p, selectorFor(scene.illuminants(), scene, strategy),
+                selectorFor(scene.illuminants(), scene, starts), std::move(cameraMedium));
           },
           .rendersMedia = true,
+          .rendersSubsurface = true,
           .tracesFromLights = true,
           .weighsBothEnds = true};
 }
@@ -261,11 +287,12 @@ IntegratorPlan readMlt(ParamReader& in, const ConstructOptions& options) {
   p.sigma = findFloatWithin(in, "sigma", p.sigma, Range::nonNegative());
   const std::int64_t mutations = readMutations(in, options);
   return {.make = [=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
-            return std::make_unique<MltIntegrator>(scene, p, selectorFor(lightsOf(scene), scene, "power"),
-                                                   selectorFor(lightsOf(scene), scene, "power"),
+            return std::make_unique<MltIntegrator>(scene, p, selectorFor(scene.illuminants(), scene, "power"),
+                                                   selectorFor(scene.illuminants(), scene, "power"),
                                                    std::move(cameraMedium));
           },
           .rendersMedia = true,
+          .rendersSubsurface = true,
           .samplesPerPixel = mutations,
           .tracesFromLights = true,
           .weighsBothEnds = true};

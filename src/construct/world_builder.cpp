@@ -118,15 +118,14 @@ WorldBuilder::ShapeRead WorldBuilder::readShape(ShapeDescription& shape, Diagnos
 /// How much of a curve rays meet from a side is not what a surface with its normals there would have: a
 /// ribbon narrows with its inclination to the ray besides the cosine of its normal. The adjoint of hair knows
 /// what turns to rays.
-void WorldBuilder::warnOfCurves(const SourceLocation& at, const std::string& context,
-                                bool weighsBothEnds) const {
+void WorldBuilder::warnOfCurves(const SourceLocation& at, const std::string& context) const {
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     const std::optional<ShapePlan>& plan = shapes_[i].plan;
     const ShapeDescription& shape = scene_.shapes[i];
     if (!plan || !plan->strands || !isUsed(shape) || shapes_[i].material.isNone) continue;
     const bool isHair =
         shape.material != kNone && scene_.materials[static_cast<std::size_t>(shape.material)].type == "hair";
-    if (isHair && turnsToRays(plan->strands->type) && !weighsBothEnds) continue;
+    if (isHair && turnsToRays(plan->strands->type)) continue;
     diagnostics_.warning(
         at,
         context + ": curves have no thickness and face the rays that meet them, as at " +

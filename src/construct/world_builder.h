@@ -41,9 +41,8 @@ class WorldBuilder {
   /// lie outside of all their boundaries.
   void warnOfUnseenMedia(const CameraMedium& camera, const std::vector<const Medium*>& unreached,
                          Diagnostics& diagnostics) const;
-  /// Warns at `at` of curves, where the integrator of `context` traces paths from lights. `weighsBothEnds`:
-  /// as IntegratorPlan.
-  void warnOfCurves(const SourceLocation& at, const std::string& context, bool weighsBothEnds) const;
+  /// Warns at `at` of curves, where light paths of the integrator of `context` scatter at them.
+  void warnOfCurves(const SourceLocation& at, const std::string& context) const;
   std::vector<std::string> report() const { return report_; }
 
  private:

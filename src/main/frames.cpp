@@ -45,6 +45,8 @@ std::vector<std::string> imagesOf(const Options& options, int frame) {
 Options optionsOfFrame(const Options& options, int frame) {
   Options one = options;
   one.frames = {};
+  one.framesShareFolder = options.frames && options.frames->last > options.frames->first &&
+                          !(options.outfile && hasFramePlace(options.outfile->parent_path().string()));
   one.variables.setFrame(frame);
   for (File* file : {&one.outfile, &one.statsFile, &one.boundsCache, &one.checkpoint, &one.resume,
                      &one.reference, &one.convergence}) {

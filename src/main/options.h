@@ -33,9 +33,10 @@ struct DerivativeOptions {
 
 /// The command line of `pbrt`, checked.
 struct Options {
-  std::vector<std::filesystem::path> scenes;    ///< "-" alone: standard input
-  Variables variables{};                        ///< those of --define
-  std::optional<FrameRange> frames;             ///< rendered one after the other
+  std::vector<std::filesystem::path> scenes;  ///< "-" alone: standard input
+  Variables variables{};                      ///< those of --define
+  std::optional<FrameRange> frames;           ///< rendered one after the other
+  bool framesShareFolder = false;             ///< of one of several frames: their images may be in one folder
   std::optional<DerivativeOptions> derivative;  ///< the image is that of a derivative
   unsigned threads = 0;                         ///< 0: one per processor
   std::optional<std::filesystem::path> outfile;

@@ -13,6 +13,7 @@
 
 #include "base/writable.h"
 #include "construct/scene_identity.h"
+#include "integrators/bdpt/strategy_images.h"
 
 namespace pbrtmedia {
 namespace {
@@ -43,9 +44,14 @@ std::vector<FileUse> outputsOf(const std::vector<SceneDescription>& worlds, cons
   std::vector<FileUse> files;
   for (const SceneDescription& world : worlds) {
     files.push_back({"the image", options.outfile.value_or(namedOutput(world).first)});
-    if (!options.png) continue;
-    files.push_back(files.back());
-    files.back().file.replace_extension(".png");
+    const fs::path image = files.back().file;
+    if (options.png) {
+      files.push_back(files.back());
+      files.back().file.replace_extension(".png");
+    }
+    if (!makesStrategyImages(world)) continue;
+    for (const SideImage& side : strategyImages(kMostShownDepth))
+      files.push_back({"an image of strategies", image.parent_path() / side.name});
   }
   const std::pair<const char*, const std::optional<fs::path>*> more[] = {
       {"--stats", &options.statsFile},
@@ -79,6 +85,14 @@ std::map<fs::path, std::string> usesOfInputs(const std::vector<SceneDescription>
 
 }  // namespace
 
+bool makesStrategyImages(const SceneDescription& world) {
+  const auto isSet = [&](const char* name) {
+    const Param* const p = world.integrator.params.find(ParamKind::Bool, name);
+    return p != nullptr && p->size() == 1 && std::get<std::vector<std::uint8_t>>(p->values).front() != 0;
+  };
+  return world.integrator.type == "bdpt" && (isSet("visualizestrategies") || isSet("visualizeweights"));
+}
+
 std::string imageNameOf(const SceneDescription& world) { return namedOutput(world).first; }
 
 void requireWritable(const std::string& option, const fs::path& file) {
@@ -105,6 +119,22 @@ void reportSharedOutputs(const std::vector<SceneDescription>& worlds, const Opti
                                   " too, and only the last one rendered stays; give each world a Film "
                                   "\"string filename\" of its own" +
                                   (options.outfile ? " and leave --outfile out" : ""));
+  }
+}
+
+void reportSharedStrategyImages(const std::vector<SceneDescription>& worlds, const Options& options,
+                                Diagnostics& diagnostics) {
+  std::map<fs::path, SourceLocation> seen;
+  for (const SceneDescription& world : worlds) {
+    if (!makesStrategyImages(world)) continue;
+    const fs::path image = options.outfile.value_or(namedOutput(world).first);
+    const auto [earlier, isNew] =
+        seen.try_emplace(image.parent_path().lexically_normal(), world.integrator.location);
+    if (isNew) continue;
+    diagnostics.tolerated(world.integrator.location,
+                          "the images of strategies are written over those of the world at " +
+                              earlier->second.toString() +
+                              "; give the worlds a Film \"string filename\" in a folder of their own");
   }
 }
 

@@ -24,6 +24,12 @@ std::string imageNameOf(const SceneDescription& world);
 void reportSharedOutputs(const std::vector<SceneDescription>& worlds, const Options& options,
                          Diagnostics& diagnostics);
 
+/// The same of the images that `bdpt` makes of its strategies, whose names are always the same.
+void reportSharedStrategyImages(const std::vector<SceneDescription>& worlds, const Options& options,
+                                Diagnostics& diagnostics);
+/// Whether a world has such images.
+bool makesStrategyImages(const SceneDescription& world);
+
 /// Files that the run would write over what it reads (scenes and their includes, and what parameters name:
 /// volumes, meshes, images, ...) or has written itself: errors, as nobody wants that. `mediumParams`: those
 /// of

@@ -91,6 +91,7 @@ void checkWorlds(const Input& input, const Options& options, Diagnostics& diagno
                               " WorldBegin … WorldEnd blocks; render them apart");
   }
   reportSharedOutputs(worlds, options, diagnostics);
+  reportSharedStrategyImages(worlds, options, diagnostics);
   reportLostFiles(worlds, input.mediumParams, options, diagnostics);
 }
 

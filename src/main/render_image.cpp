@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "base/byte_stream.h"
 #include "base/parallel.h"
@@ -148,6 +150,8 @@ RenderedImage renderImage(const Construction& scene, const Options& options, con
   };
   checkpoints.attach(scene, loop);
   RenderedImage rendered;
+  if (std::vector<SideImage> sides = scene.integrator->sideImages(); !sides.empty())
+    loop.sides = &rendered.sides.emplace(std::move(sides), scene.film->settings().resolution);
   rendered.result = scene.integrator->render(*scene.camera, *scene.sampler, *scene.film, loop);
   line.finish(static_cast<std::int64_t>(rendered.result.samplesTaken),
               static_cast<std::int64_t>(rendered.result.samplesTotal));

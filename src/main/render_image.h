@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/stop_signal.h"
 #include "base/stopwatch.h"
 #include "construct/construct.h"
+#include "film/side_images.h"
 #include "main/checkpoints.h"
 #include "main/options.h"
 #include "main/together.h"
@@ -31,10 +33,11 @@ struct RankShare {
 };
 
 struct RenderedImage {
-  RenderResult result;           ///< the image is on the film
-  PhaseTime measuring;           ///< seconds for --convergence and --error, which are none of rendering
-  std::string stoppedBy;         ///< "time", "signal", "lookups" or "error"; "": not stopped early
-  std::vector<RankShare> ranks;  ///< of all ranks, on the first; empty where there is but one
+  RenderResult result;              ///< the image is on the film
+  PhaseTime measuring;              ///< seconds for --convergence and --error, which are none of rendering
+  std::string stoppedBy;            ///< "time", "signal", "lookups" or "error"; "": not stopped early
+  std::optional<SideImages> sides;  ///< of an integrator that makes some
+  std::vector<RankShare> ranks;     ///< of all ranks, on the first; empty where there is but one
 };
 
 /// Whether the film must keep its halves (Film::keepHalves) for what the options ask.

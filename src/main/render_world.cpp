@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <vector>
 
 #include "base/built_parts.h"
@@ -118,6 +119,26 @@ void checkRange(const SampleRange& range, const Construction& scene, bool resume
   }
 }
 
+/// Throws SceneError where images of strategies could not be made.
+void checkSideImages(const Construction& scene, const Run& run) {
+  if (scene.integrator->sideImages().empty()) return;
+  const Options& options = run.options;
+  const std::string images = "the images that \"visualizestrategies\" and \"visualizeweights\" make ";
+  if (options.checkpoint || options.resume) {
+    throw SceneError({},
+                     std::string(options.checkpoint ? "--checkpoint" : "--resume") + ": " + images +
+                         "are not kept in checkpoints; render them in one go, or leave the parameters out");
+  }
+  if (options.framesShareFolder) {
+    throw SceneError({}, "--frames: " + images +
+                             "would be written over those of another frame; write --outfile "
+                             "frame-####/image.exr, whose folder is of one frame");
+  }
+  if (!run.together.ranks().isAlone()) {
+    throw SceneError({}, images + "are of one process; render them with pbrt, or leave the parameters out");
+  }
+}
+
 /// Where the render of a world starts.
 void begin(const BuiltWorld& world, const WorldId& id, const Run& run) {
   const Options& options = run.options;
@@ -128,6 +149,7 @@ void begin(const BuiltWorld& world, const WorldId& id, const Run& run) {
     const std::string boundsWarnings = run.bounds.restore(id.name, *scene.scene);
     if (!options.quiet) std::cerr << boundsWarnings;
   }
+  checkSideImages(scene, run);
   if (options.samples) checkRange(*options.samples, scene, run.checkpoints.resumes());
 }
 
@@ -156,6 +178,25 @@ std::string writeRendered(const std::filesystem::path& outfile, const Image& ima
   }
   if (!options.quiet) std::cerr << "wrote " << written << '\n';
   return "wrote " + written;
+}
+
+/// Writes the images besides that of the film into its folder.
+void writeSideImages(const std::filesystem::path& outfile, const SideImages& sides,
+                     const std::map<std::string, std::string>& metadata, const Options& options,
+                     int& status) {
+  for (std::size_t i = 0; i < sides.count(); ++i) {
+    Image image = sides.develop(i);
+    image.metadata = metadata;
+    const std::filesystem::path file = outfile.parent_path() / sides.description(i).name;
+    const SavedImage saved = saveImage(file, image, options.write);
+    if (saved.problem.empty()) continue;
+    std::cerr << "pbrt: error: " << saved.problem << "; the image is in \"" << saved.file.string()
+              << "\" instead\n";
+    status = kExitBadInput;
+  }
+  if (options.quiet) return;
+  std::cerr << "wrote an image for each of " << sides.count() << " strategies, "
+            << (outfile.parent_path() / sides.description(0).name).string() << " and so on\n";
 }
 
 /// The image of a range, with what other ranges of the render are added to.
@@ -267,6 +308,7 @@ std::optional<RenderStatistics> renderWorld(SceneDescription& description, const
   const std::string written =
       options.samples ? writeRendered(scene.outfile, asRange(image, *options.samples, scene), options, status)
                       : writeRendered(scene.outfile, image, options, status);
+  if (rendered.sides) writeSideImages(scene.outfile, *rendered.sides, image.metadata, options, status);
   if (!options.samples) run.bounds.save(id.name, *scene.scene);
   statistics.write = writing.elapsed();
   statistics.built = builtParts() - builtBefore;

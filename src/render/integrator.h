@@ -3,8 +3,10 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "film/layers.h"
+#include "film/side_images.h"
 
 namespace pbrtmedia {
 
@@ -42,6 +44,8 @@ class Integrator {
   /// brings to the image wherever it hits. A pixel is the mean of what camera rays bring plus the mean over
   /// as many splats as there are samples to a pixel of the whole image.
   virtual bool makesSplats() const { return false; }
+  /// Images that it makes besides that of the film (RenderOptions::sides).
+  virtual std::vector<SideImage> sideImages() const { return {}; }
   /// Why the samples of an image cannot be taken in ranges apart from each other (RenderOptions::firstSample
   /// above 0), to stand after "cannot be rendered in parts: "; empty: they can.
   virtual std::string whyInOnePiece() const { return {}; }

@@ -13,6 +13,7 @@
 namespace pbrtmedia {
 
 class Ranks;
+class SideImages;
 struct RenderResult;
 struct RenderState;
 
@@ -68,6 +69,9 @@ struct RenderOptions {
   /// Those who share the passes, for the same image. The first decides about passes, and it alone calls the
   /// hooks of passes and has the whole film in the end. Null: this process alone.
   Ranks* ranks = nullptr;
+  /// Those of Integrator::sideImages, of the film's whole picture, where somebody wants them: this process
+  /// alone takes the samples then. They are no part of states and checkpoints.
+  SideImages* sides = nullptr;
   /// Asked on the first rank, seconds until `stop` will be set as the time is up; the others are told
   /// (limitSeconds) and set theirs.
   std::function<double()> secondsLeft{};

@@ -10,6 +10,7 @@ namespace pbrtmedia {
 
 class Camera;
 struct MismatchLog;
+class SideSplats;
 class SplatBuffer;
 
 /// What one camera sample carries through the renderer. Lives on the stack of one thread.
@@ -25,6 +26,9 @@ struct SampleContext {
   PixelSample pixelSample = {};  ///< what `rng` serves, for patterns over the samples of a pixel
 
   const Camera* camera = nullptr;  ///< whose sample it is, for integrators that look for it from the scene
+
+  /// Where integrators with Integrator::sideImages put what the sample brings to them; null: nobody wants it.
+  SideSplats* sides = nullptr;
 
   /// What media draw from.
   PixelStream stream() { return {rng, pixelSample}; }

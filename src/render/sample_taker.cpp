@@ -53,6 +53,8 @@ Rgb renderSample(const Camera& camera, Sampler& sampler, const SamplingIntegrato
                                 static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel, 0)), 0};
   SampleContext context{sampler,       rng,           counters,    output.mismatches,
                         output.splats, output.layers, pixelSample, &camera};
+  SideSplats sides(output.sides, cameraSample.film, weighted.weight);
+  if (!output.sides.empty()) context.sides = &sides;
   const Rgb radiance = weighted.weight * integrator.radiance(weighted.ray, context);
   output.layers.scaleRadiance(weighted.weight);
   return radiance;
@@ -68,7 +70,7 @@ SampleTaker::SampleTaker(const Camera& camera, const Sampler& sampler, const Sam
       samplesPerPixel_(samplesPerPixel) {}
 
 void SampleTaker::take(Point2i pixel, std::int64_t index, int slot, SamplePass& pass, UnitReport& report,
-                       SplatBuffer* splats) {
+                       SplatBuffer* splats, std::span<SplatBuffer> sides) {
   MismatchLog log{
       pixel, index, options_.maxRecords - std::min(options_.maxRecords, report.mismatches.size()), {}};
   Point2f film;
@@ -77,9 +79,9 @@ void SampleTaker::take(Point2i pixel, std::int64_t index, int slot, SamplePass& 
   const LayerSample layers = pass.layersAt(pixel, slot);
   const double secondsBefore = secondsOf(layers);
   const std::size_t splatsBefore = splats ? splats->size() : 0;
-  Rgb radiance =
-      renderSample(camera_, *sampler_, integrator_, pixel, index, samplesPerPixel_, options_.seed,
-                   report.counters, {.mismatches = &log, .film = &film, .splats = splats, .layers = layers});
+  Rgb radiance = renderSample(
+      camera_, *sampler_, integrator_, pixel, index, samplesPerPixel_, options_.seed, report.counters,
+      {.mismatches = &log, .film = &film, .splats = splats, .layers = layers, .sides = sides});
   if (layers.isWanted()) {
     layers.set(Layer::Samples, 1.0f);
     layers.set(Layer::Seconds, static_cast<float>(secondsOf(layers) - secondsBefore));

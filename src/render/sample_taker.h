@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "base/statistics.h"
 #include "cameras/camera.h"
 #include "film/film.h"
 #include "film/sample_pass.h"
+#include "film/side_images.h"
 #include "film/splat_buffer.h"
 #include "render/pass_report.h"
 #include "render/render_options.h"
@@ -22,6 +24,7 @@ struct SampleOutput {
   Point2f* film = nullptr;
   SplatBuffer* splats = nullptr;
   LayerSample layers{};
+  std::span<SplatBuffer> sides{};  ///< by Integrator::sideImages
 };
 
 /// One sample, as every render takes it: a pure function of seed, pixel and sample index. Radiance before the
@@ -38,9 +41,10 @@ class SampleTaker {
   SampleTaker(const Camera& camera, const Sampler& sampler, const SamplingIntegrator& integrator,
               const Film& film, const RenderOptions& options, std::int64_t samplesPerPixel);
 
-  /// `slot`: of the pass. `splats`: null where the integrator makes none.
+  /// `slot`: of the pass. `splats`: null where the integrator makes none; `sides`: a buffer for each of
+  /// Integrator::sideImages, or none.
   void take(Point2i pixel, std::int64_t index, int slot, SamplePass& pass, UnitReport& report,
-            SplatBuffer* splats);
+            SplatBuffer* splats, std::span<SplatBuffer> sides = {});
 
  private:
   /// Whether the film takes it; a value that it does not take is black and noted, with its cause.

@@ -14,6 +14,7 @@
 #include "base/interruption.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "film/side_images.h"
 #include "render/pass_loop.h"
 #include "render/pass_shares.h"
 #include "render/ranks.h"
@@ -64,6 +65,7 @@ class TileLoop {
                .mostPerPass = mostPerPass()}) {
     const RowRange rows = shares_.summedBy(ranks_.rank());
     film_.sumOnly(rows.first, rows.end);
+    CHECK(!options.sides || ranks_.isAlone()) << "side images are of one process";
   }
 
   RenderResult run() {
@@ -75,7 +77,8 @@ class TileLoop {
  private:
   std::int64_t mostPerPass() const {
     const std::size_t perSample = sizeof(SamplePass::Sample) + film_.layers().sampleSize() * sizeof(float) +
-                                  (integrator_.makesSplats() ? kSplatsPerSample * sizeof(Splat) : 0);
+                                  (integrator_.makesSplats() ? kSplatsPerSample * sizeof(Splat) : 0) +
+                                  (options_.sides ? options_.sides->count() * sizeof(Splat) : 0);
     const auto perIndex = static_cast<std::size_t>(film_.sampleBounds().area()) * perSample;
     return static_cast<std::int64_t>(std::max<std::size_t>(1, kPassBytes / perIndex));
   }
@@ -85,11 +88,13 @@ class TileLoop {
     const std::span<const std::size_t> tiles = shares_.takenBy(ranks_.rank());
     prepare(pass, tiles);
     splats_.assign(integrator_.makesSplats() ? tiles.size() : 0, {});
+    if (options_.sides) sides_.assign(tiles.size(), SideImages::Unit(options_.sides->count()));
     std::vector<UnitReport> reports(tiles.size());
     parallelFor(tiles.size(), [&](std::size_t i) {
       const Stopwatch watch;
       renderTile(shares_.tiles()[tiles[i]], pass, *taken_, reports[i],
-                 splats_.empty() ? nullptr : &splats_[i]);
+                 splats_.empty() ? nullptr : &splats_[i],
+                 sides_.empty() ? std::span<SplatBuffer>() : std::span<SplatBuffer>(sides_[i]));
       costs_[tiles[i]] += static_cast<std::uint64_t>(watch.seconds() * 1e9);
     });
     return reports;
@@ -120,6 +125,7 @@ class TileLoop {
     if (!ranks_.isAlone())
       others = deliver(ranks_, shares_, *taken_, integrator_.makesSplats() ? &splats_ : nullptr);
     film_.accumulate(*taken_);
+    if (options_.sides) options_.sides->add(sides_, *taken_, loop_.samplesOfPass());
     if (ranks_.isAlone()) taken_.reset();
     if (!integrator_.makesSplats()) return;
     for (SplatBuffer& buffer : others) splats_.push_back(std::move(buffer));
@@ -148,7 +154,7 @@ class TileLoop {
   }
 
   void renderTile(const Bounds2i& tile, const Pass& pass, SamplePass& samples, UnitReport& report,
-                  SplatBuffer* splats) {
+                  SplatBuffer* splats, std::span<SplatBuffer> sides) {
     SampleTaker taker(camera_, sampler_, integrator_, film_, options_, samplesPerPixel_);
     for (int y = tile.min.y; y < tile.max.y; ++y) {
       for (int x = tile.min.x; x < tile.max.x; ++x) {
@@ -156,9 +162,11 @@ class TileLoop {
           if (loop_.shouldStop()) return;
           try {
             if (splats) splats->begin(orderOf({x, y}, s), (pass.first + s) % 2 != 0);
-            taker.take({x, y}, pass.first + s, s, samples, report, splats);
+            for (SplatBuffer& side : sides) side.begin(orderOf({x, y}, s));
+            taker.take({x, y}, pass.first + s, s, samples, report, splats, sides);
           } catch (const Interrupted&) {
             if (splats) splats->dropLast();
+            for (SplatBuffer& side : sides) side.dropLast();
             ++report.abandoned;
             return;
           }
@@ -191,8 +199,9 @@ class TileLoop {
   PassShares shares_;
   std::vector<std::uint64_t> costs_;  ///< of tiles so far, nanoseconds of this rank's threads
   int passes_ = 0;
-  std::optional<SamplePass> taken_;  ///< by the pass under way
-  std::vector<SplatBuffer> splats_;  ///< by tiles
+  std::optional<SamplePass> taken_;      ///< by the pass under way
+  std::vector<SplatBuffer> splats_;      ///< by tiles
+  std::vector<SideImages::Unit> sides_;  ///< the same; empty where nobody wants them
   PassLoop loop_;
 };
 

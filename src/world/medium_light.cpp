@@ -73,6 +73,22 @@ double MediumLight::directionPdf(Point3f reference, Vector3f wi, float time) con
   return density * volumeScale(medium_.placement->mediaFromWorld(time));
 }
 
+double MediumLight::pointPdf(Point3f p, float time) const {
+  if (!medium_.placement) return volume_.density(p);
+  const Transform mediaFromWorld = medium_.placement->mediaFromWorld(time);
+  return volume_.density(Point3f(mediaFromWorld.point(Vec3d(p)))) * volumeScale(mediaFromWorld);
+}
+
+Rgb MediumLight::emissionAt(Point3f p, float time, const MediumState& state, RenderCounters& counters) const {
+  for (std::size_t i = 0; i < state.activeCount(); ++i) {
+    if (!(state.active(i) == medium_)) continue;
+    if (!medium_.placement) return medium_.medium->at(p, counters).emission;
+    const Vec3d here = medium_.placement->mediaFromWorld(time).point(Vec3d(p));
+    return medium_.medium->at(Point3f(here), counters).emission;
+  }
+  return {};
+}
+
 std::optional<Span<double>> MediumLight::span(Point3f reference, Vector3f wi, float time) const {
   const Segment line = lineOf(reference, wi, time);
   return clipToBox(Bounds3d{Vec3d(volume_.bounds().min), Vec3d(volume_.bounds().max)}, Vec3d(line.o),

@@ -37,6 +37,13 @@ class MediumLight final : public Illuminant {
   double directionPdf(Point3f reference, Vector3f wi, float time) const;
   /// Where light samples look for emission along unit `wi`.
   std::optional<Span<double>> span(Point3f reference, Vector3f wi, float time) const;
+  /// A point where paths may start, in the world: chosen where directions are looked along for.
+  Point3f samplePoint(Point2f u, float time) const { return Point3f(pointAt(u, time)); }
+  /// Its density per volume of the world.
+  double pointPdf(Point3f p, float time) const;
+  /// sigma_a Le there, per length of the world: where `state` is in force the medium may be absent, or hidden
+  /// by another, and is black.
+  Rgb emissionAt(Point3f p, float time, const MediumState& state, RenderCounters& counters) const;
   const PlacedMedium& medium() const { return medium_; }
 
  private:

@@ -56,16 +56,15 @@ class PassedStretches {
   Rgb through_{1.0f};
 };
 
-/// The emission of `medium` on a stretch, seen from the stretch's start.
-Rgb emissionOf(const PlacedMedium& medium, const MediaStretch& stretch, PixelStream random,
-               RenderCounters& counters) {
-  Rgb sum;
+/// Calls emit(sample, seen from the stretch's start) for what `medium` emits on a stretch.
+template <class Emit>
+void sampleEmissionOf(const PlacedMedium& medium, const MediaStretch& stretch, PixelStream random,
+                      RenderCounters& counters, const Emit& emit) {
   for (std::size_t i = 0; i < stretch.state().activeCount(); ++i) {
     if (!(stretch.state().active(i) == medium)) continue;
     const EmissionSamples found = stretch.sampleEmission(i, random, counters);
-    for (const EmissionSamples::Sample& s : found) sum += s.radiance;
+    for (const EmissionSamples::Sample& s : found) emit(s);
   }
-  return sum;
 }
 
 bool isActive(const PlacedMedium& medium, const MediumState& state) {
@@ -75,31 +74,65 @@ bool isActive(const PlacedMedium& medium, const MediumState& state) {
   return false;
 }
 
-}  // namespace
-
-Rgb shadowEmission(const MediaWalk::Context& context, const ShadowRay& shadow, const PlacedMedium& medium,
-                   Span<double> span, MediumState state, PixelStream random) {
+/// Walks along the shadow ray. Calls passes(stretch) for each of which something is passed, and
+/// emits(stretch, what is let through to its start) where the medium is present inside the span.
+template <class Passes, class Emits>
+void walkToEmission(const MediaWalk::Context& context, const ShadowRay& shadow, const PlacedMedium& medium,
+                    Span<double> span, MediumState& state, PixelStream random, const Passes& passes,
+                    const Emits& emits) {
   MediaWalk walk(context, state, LineWalk(context.scene, shadow.ray, shadow.exclusions), shadow.from);
   const Ray& ray = walk.ray();
   PassedStretches passed(ray);
-  Rgb sum;
+  const auto pass = [&](double tMin, double tMax) {
+    passed.add(state, tMin, tMax);
+    if (!state.isVacuum() && tMin < tMax) passes(MediaStretch(state, ray, tMin, tMax));
+  };
   while (walk.t() < span.tMax) {
     walk.ahead();
     double t = walk.t();
     const double from = std::max(t, span.tMin), to = std::min(walk.tEnd(), span.tMax);
     if (from < to && isActive(medium, state)) {
-      passed.add(state, t, from);
+      pass(t, from);
       const Rgb through = passed.transmittance(random, context.counters);
-      if (through.isBlack()) return sum;
-      sum += through * emissionOf(medium, {state, ray, from, to}, random, context.counters);
+      if (through.isBlack()) return;
+      emits(MediaStretch(state, ray, from, to), through);
       t = from;
     }
-    passed.add(state, t, walk.tEnd());
+    pass(t, walk.tEnd());
     const std::optional<SceneHit> hit = walk.next();
-    if (!hit || hit->primitive->material) return sum;
+    if (!hit || hit->primitive->material) return;
     walk.cross(*hit);
   }
+}
+
+}  // namespace
+
+Rgb shadowEmission(const MediaWalk::Context& context, const ShadowRay& shadow, const PlacedMedium& medium,
+                   Span<double> span, MediumState state, PixelStream random) {
+  Rgb sum;
+  walkToEmission(
+      context, shadow, medium, span, state, random, [](const MediaStretch&) {},
+      [&](const MediaStretch& stretch, Rgb through) {
+        Rgb emitted;
+        sampleEmissionOf(medium, stretch, random, context.counters,
+                         [&](const EmissionSamples::Sample& s) { emitted += s.radiance; });
+        sum += through * emitted;
+      });
   return sum;
+}
+
+void visitShadowEmission(const MediaWalk::Context& context, const ShadowRay& shadow,
+                         const PlacedMedium& medium, Span<double> span, MediumState state, PixelStream random,
+                         const std::function<void(const EmissionOnWay&)>& visit) {
+  Rgb depth;
+  walkToEmission(
+      context, shadow, medium, span, state, random,
+      [&](const MediaStretch& passed) { depth += passed.control().depth; },
+      [&](const MediaStretch& stretch, Rgb through) {
+        sampleEmissionOf(medium, stretch, random, context.counters, [&](const EmissionSamples::Sample& s) {
+          visit({s.t, through * s.radiance, depth + stretch.upTo(s.t).control().depth});
+        });
+      });
 }
 
 Rgb shadowTransmittance(const MediaWalk::Context& context, const ShadowRay& shadow, MediumState& state,

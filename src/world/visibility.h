@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <functional>
+
 #include "lights/light.h"
 #include "spectrum/rgb.h"
 #include "world/media_walk.h"
@@ -28,6 +30,16 @@ ShadowRay shadowRayTo(const Scene& scene, std::size_t light, const LightSample& 
 /// the span. Unbiased. `state`: of the start.
 Rgb shadowEmission(const MediaWalk::Context& context, const ShadowRay& shadow, const PlacedMedium& medium,
                    Span<double> span, MediumState state, PixelStream random);
+
+/// The same point by point.
+struct EmissionOnWay {
+  double t = 0;
+  Rgb radiance;  ///< a sample of what arrives from there (EmissionSamples)
+  Rgb depth;     ///< what the media's controls say of the way there
+};
+void visitShadowEmission(const MediaWalk::Context& context, const ShadowRay& shadow,
+                         const PlacedMedium& medium, Span<double> span, MediumState state, PixelStream random,
+                         const std::function<void(const EmissionOnWay&)>& visit);
 
 /// Transmittance of the media along the shadow ray, starting in `state`: black when a surface with a material
 /// is in the way, or `shadow.hider`. Boundaries without material are crossed. shadowalpha does not apply

@@ -140,7 +140,14 @@ TEST(ConstructIntegrator, SppmSaysWhatPhotonsCannotTell) {
   };
   const std::string grid = "\"string type\" \"heterogeneous\" \"float density\" 1 ";
   EXPECT_TRUE(with(grid).isSilent()) << with(grid).messages();
-  EXPECT_TRUE(with(grid + "\"rgb Le\" [ 1 1 1 ]").warns("media that emit send no photons"));
+  const std::string glow = "\"string type\" \"homogeneous\" \"rgb Le\" [ 1 1 1 ] ";
+  EXPECT_TRUE(with(grid + "\"rgb Le\" [ 1 1 1 ]").isSilent());
+  EXPECT_TRUE(with(glow).isSilent()) << with(glow).messages();
+  const Attempt endless = attempt(
+      "Integrator \"sppm\" MakeNamedMedium \"m\" " + glow +
+      "MediumInterface \"\" \"m\" Camera \"perspective\" WorldBegin LightSource \"point\" Shape \"sphere\" "
+      "WorldEnd");
+  EXPECT_TRUE(endless.warns("medium \"m\" emits, and as nothing encloses it")) << endless.messages();
   EXPECT_TRUE(with(grid + "\"string law\" \"linear\"").failsWith("a law other than the exponential"))
       << with(grid + "\"string law\" \"linear\"").messages();
 }

@@ -199,17 +199,19 @@ TEST(Tolerance, NumbersBeyondTheirRangeAreMovedAsInPbrt) {
   same("LightSource \"distant\" \"point to\" [ 0 0 0 ] " + kBall, "the light is left out", kBall, lights);
 }
 
-TEST(Tolerance, ImagesOfSingleStrategiesAreToldToBeMissing) {
+TEST(Tolerance, ImagesOfStrategiesAreOfShortPathsAsInPbrtV3) {
   const std::string world = "LightSource \"infinite\" " + kBall;
   for (const std::string name : {"visualizestrategies", "visualizeweights"}) {
-    const auto with = [&](const std::string& value) {
-      return attemptWorld(world, {}, "Integrator \"bdpt\" \"bool " + name + "\" \"" + value + '"');
+    const auto with = [&](const std::string& value, const std::string& depth) {
+      return attemptWorld(
+          world, {},
+          "Integrator \"bdpt\" \"integer maxdepth\" " + depth + " \"bool " + name + "\" \"" + value + '"');
     };
-    EXPECT_TRUE(with("false").isSilent());
-    const Attempt asked = with("true");
-    EXPECT_TRUE(asked.made && asked.warns("\"" + name + "\" has no effect")) << asked.messages();
-    const StrictAttempts strict;
-    EXPECT_TRUE(with("true").failsWith("has no effect"));
+    EXPECT_TRUE(with("false", "9").isSilent());
+    EXPECT_TRUE(with("true", "5").isSilent());
+    const Attempt asked = with("true", "6");
+    EXPECT_TRUE(asked.made && asked.warns("\"" + name + "\" limits \"maxdepth\" to 5")) << asked.messages();
+    EXPECT_TRUE(asked.made && asked.warns("found 6")) << asked.messages();
   }
 }
 

@@ -519,6 +519,39 @@ TEST(MediumLight, DensitiesAreThoseOfItsSamples) {
   }
 }
 
+/// The density of a direction is the integral of t² times that of the points along it, by quadrature.
+TEST(MediumLight, DensityOfPointsIsThatOfTheirDirectionsTakenApart) {
+  const Placement skewed(0, AnimatedTransform(kSkew));
+  SceneKit kit;
+  const Medium* const gas = make(kit, {Rgb(1), Rgb(0), Rgb(2), Gas::Storage::Homogeneous});
+  const std::unique_ptr<Medium> fire = patchyFire(1);
+  for (const Medium* medium : {gas, static_cast<const Medium*>(fire.get())}) {
+    const std::unique_ptr<const EmissionVolume> volume = medium->emissionVolume({{-1, 0, 0}, {1, 1, 2}});
+    ASSERT_NE(volume, nullptr);
+    for (const Placement* placement : {static_cast<const Placement*>(nullptr), &skewed}) {
+      const MediumLight light({medium, placement}, *volume);
+      const Point3f x{4, 1, 2};
+      Rng rng(5);
+      for (int i = 0; i < 100; ++i) {
+        const Point2f u{rng.uniform(), rng.uniform()};
+        const Point3f inside = light.samplePoint(u, kTime);
+        EXPECT_GT(light.pointPdf(inside, kTime), 0) << i;
+        const Vector3f d = normalize(inside - x);
+        constexpr int kSteps = 20000;
+        constexpr double kStep = 12.0 / kSteps;
+        double sum = 0;
+        for (int k = 0; k < kSteps; ++k) {
+          const double t = (k + .5) * kStep;
+          sum += t * t * light.pointPdf(Point3f(Vec3d(x) + t * Vec3d(d)), kTime) * kStep;
+        }
+        // Each border that the line crosses is found within a step.
+        const double truth = light.directionPdf(x, d, kTime);
+        EXPECT_NEAR(sum, truth, 1e-2 * truth + 1e-4) << i;
+      }
+    }
+  }
+}
+
 TEST(MediumLight, PowerIsThatOfItsVolumeWhenThinAndOfItsSurfaceWhenDense) {
   SceneKit kit;
   for (const auto storage : kStorages) {

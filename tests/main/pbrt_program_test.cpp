@@ -52,9 +52,42 @@ class Pbrt : public testing::Test {
   ProcessResult pbrt(const std::string& arguments, const std::string& before = "") const {
     return run("cd '" + folder_.path().string() + "' && " + before + " '" PBRT_PROGRAM "' " + arguments);
   }
+  Rgb pixelOf(const std::string& name, int x, int y) const {
+    return readImage(folder_.path() / name).rgb(x, y);
+  }
   Rgb firstPixel(const std::string& name) const { return readImage(folder_.path() / name).rgb(0, 0); }
   TemporaryFolder folder_;
 };
+
+TEST_F(Pbrt, WritesImagesOfStrategiesBesideTheImage) {
+  folder_.write(
+      "a.pbrt",
+      "Film \"image\" \"integer xresolution\" 6 \"integer yresolution\" 4\nPixelFilter \"box\"\n"
+      "Sampler \"random\" \"integer pixelsamples\" 4\nIntegrator \"bdpt\" \"integer maxdepth\" 2 \"bool "
+      "visualizeweights\" \"true\"\nLookAt 0 -3 1 0 0 0 0 0 1\nCamera \"perspective\"\nWorldBegin\n"
+      "LightSource \"point\" \"point from\" [ 0 0 1 ]\nShape \"disk\"\nWorldEnd\n");
+  std::filesystem::create_directory(folder_.path() / "out");
+  const ProcessResult result = pbrt("--quiet --outfile out/image.exr a.pbrt");
+  ASSERT_EQ(result.status, 0) << result.output;
+  Rgb sum;
+  int found = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "out")) {
+    const std::string name = entry.path().filename().string();
+    if (name == "image.exr") continue;
+    EXPECT_EQ(name.substr(0, 6), "bdpt_d") << name;
+    sum += readImage(entry.path()).rgb(3, 2);
+    ++found;
+  }
+  EXPECT_EQ(found, 8);
+  const Rgb image = pixelOf("out/image.exr", 3, 2);
+  EXPECT_GT(image.g, 0);
+  EXPECT_NEAR(sum.g, image.g, 2e-2f * image.g) << "halves in the files";
+  for (const std::string option : {"--checkpoint c.bin", "--frames 1:2"}) {
+    const ProcessResult refused = pbrt("--quiet " + option + " --outfile b-####.exr a.pbrt");
+    EXPECT_NE(refused.status, 0) << option;
+    EXPECT_NE(refused.output.find("\"visualizeweights\""), std::string::npos) << refused.output;
+  }
+}
 
 TEST_F(Pbrt, RendersTheFileThatTheSceneNames) {
   folder_.write("a.pbrt", kScene);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// Bidirectional path tracing makes the image that paths from the camera make, pixel by pixel.
+// What is particular to bidirectional path tracing; its images are those of other integrators
+// (integrators_agree_test.cpp).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,249 +10,13 @@
 #include "film/splat_buffer.h"
 #include "integrators/bdpt/bdpt.h"
 #include "lighting/light_strategy.h"
+#include "render/agreement_scenes.h"
 #include "support/render_scene.h"
 
 namespace pbrtmedia::test {
 namespace {
 
-constexpr int kResolution = 5;
-constexpr std::uint64_t kSeed = 20261130;
 constexpr std::uint64_t kSeeds = 48;
-/// What a difference of light must not get away with.
-constexpr double kTooBright = 1.05;
-
-struct AgreementScene {
-  const char* name;
-  std::string world;
-  int samples = 32;       ///< per seed and pixel
-  std::string view = "";  ///< before the camera
-  int maxDepth = 4;
-  const char* camera = "\"perspective\" \"float fov\" 40";
-  friend std::ostream& operator<<(std::ostream& os, const AgreementScene& s) { return os << s.name; }
-};
-
-const std::string kFloor =
-    "Material \"matte\" \"rgb Kd\" [ .7 .6 .5 ]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -2 -2 0 2 -2 0 2 2 0 -2 2 0 ]\n"
-    "Shape \"trianglemesh\" \"integer indices\" [ 0 1 2 0 2 3 ] \"point P\" [ -2 1.5 0 2 1.5 0 2 1.5 3 -2 "
-    "1.5 3 ]\n";
-const std::string kBall =
-    "AttributeBegin\nMaterial \"plastic\" \"rgb Kd\" [ .2 .3 .5 ] \"float roughness\" .2\n"
-    "Translate .5 .3 .6\nShape \"sphere\" \"float radius\" .5\nAttributeEnd\n";
-const std::string kLamp =
-    "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [ 9 8 6 ]\nMaterial \"matte\" \"rgb Kd\" [ .3 .3 "
-    ".3 ]\nShape \"trianglemesh\" \"integer indices\" [ 0 2 1 0 3 2 ] \"point P\" [ -.6 -.6 2.6 .6 -.6 2.6 "
-    ".6 .6 2.6 -.6 .6 2.6 ]\nAttributeEnd\n";
-const std::string kSmoke =
-    "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .2 .2 .2 "
-    "] \"rgb sigma_s\" [ 1.4 1.4 1.4 ] \"float g\" .4\n";
-
-const std::string kThin =
-    "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .1 .1 .1 "
-    "] \"rgb sigma_s\" [ .3 .3 .3 ]\n";
-
-std::string inBox(const std::string& medium, const std::string& name = "m") {
-  return medium + mediumBox(name, {-.8, -.8, .2}, {.8, .8, 1.6});
-}
-std::string gridMedium(const std::string& extra = "") {
-  std::string text =
-      "MakeNamedMedium \"m\" \"string type\" \"heterogeneous\" \"rgb sigma_a\" [ .3 .3 .3 ] \"rgb sigma_s\" "
-      "[ 3 3 3 ] \"integer nx\" 3 \"integer ny\" 3 \"integer nz\" 3 \"point p0\" [ -.8 -.8 .2 ] \"point p1\" "
-      "[ .8 .8 1.6 ] \"float density\" [ ";
-  Rng rng(3);
-  for (int i = 0; i < 27; ++i) text += std::to_string(i % 4 == 0 ? 0 : 2 * rng.uniform()) + ' ';
-  return text + "] " + extra + '\n';
-}
-
-std::vector<AgreementScene> scenes() {
-  const std::string point = "LightSource \"point\" \"point from\" [ -.6 -.5 2 ] \"rgb I\" [ 5 4 3 ]\n";
-  const std::string surfaces = kFloor + kBall;
-  const std::string chromatic =
-      "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .1 .3 .6 ] \"rgb sigma_s\" [ "
-      "2 1 .6 ]\n";
-  const std::string rough = "Material \"glass\" \"float uroughness\" .4 \"float vroughness\" .4\n";
-  return {
-      {"area", surfaces + kLamp},
-      {"point", surfaces + point},
-      {"spot", surfaces +
-                   "LightSource \"spot\" \"point from\" [ -.6 -.5 2 ] \"point to\" [ .2 .2 0 ] \"rgb I\" "
-                   "[ 7 6 5 ] \"float coneangle\" 40 \"float conedeltaangle\" 10\n"},
-      {"distant", surfaces + "LightSource \"distant\" \"point from\" [ -1 -2 3 ] \"rgb L\" [ 2 2 1 ]\n"},
-      {"infinite", surfaces + kWhiteEnvironment},
-      {"mirror",
-       surfaces + kLamp +
-           "AttributeBegin\nMaterial \"mirror\"\nTranslate -.6 .2 .6\nShape \"sphere\" \"float "
-           "radius\" .4\nAttributeEnd\n",
-       64},
-      {"sphereLight", surfaces +
-                          "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [ 20 18 12 ]\n"
-                          "Translate -.6 -.4 2.6\nShape \"sphere\" \"float radius\" .2\nAttributeEnd\n"},
-      {"lampWithoutMaterial",
-       kFloor +
-           "AttributeBegin\nMaterial \"none\"\nAreaLightSource \"diffuse\" \"rgb L\" [ 6 5 4 ] \"bool "
-           "twosided\" \"true\"\nTranslate 0 0 2.9\nShape \"sphere\" \"float radius\" .3\nAttributeEnd\n"},
-      {"severalLights", surfaces + kLamp + point + kWhiteEnvironment},
-      {"homogeneous", kFloor + kLamp + inBox(kSmoke)},
-      {"homogeneousUnderAPoint", kFloor + point + inBox(kSmoke)},
-      {"homogeneousUnderTheSky", kFloor + kWhiteEnvironment + inBox(kSmoke)},
-      {"homogeneousUnderTheSun",
-       kFloor + "LightSource \"distant\" \"point from\" [ -1 -2 3 ] \"rgb L\" [ 2 2 1 ]\n" + inBox(kSmoke)},
-      {"grid", kFloor + kLamp + inBox(gridMedium())},
-      {"gridWithLearnedBounds", kFloor + point + inBox(gridMedium("\"string bounds\" \"progressive\" "))},
-      {"chromatic", kFloor + kLamp + inBox(chromatic), 64},
-      {"emissive",
-       kFloor + point +
-           inBox("MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb Le\" [ 1 .6 .3 ] "
-                 "\"rgb sigma_a\" [ .6 .6 .6 ] \"rgb sigma_s\" [ .8 .8 .8 ]\n"),
-       64},
-      {"overlapping",
-       kFloor + kLamp +
-           "MakeNamedMedium \"a\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .1 .1 .1 ] "
-           "\"rgb sigma_s\" [ 1 1 1 ] \"string overlap\" \"add\" \"float g\" .6\n" +
-           mediumBox("a", {-1, -1, .1}, {.3, .9, 1.2}) +
-           "MakeNamedMedium \"b\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .4 .4 .4 ] \"rgb "
-           "sigma_s\" "
-           "[ 2 2 2 ] \"string overlap\" \"add\" \"float g\" -.5\n" +
-           mediumBox("b", {-.4, -1, .3}, {.9, .8, 1.7}),
-       64},
-      {"roughGlassAroundAMedium",
-       kFloor + kLamp + kSmoke + "AttributeBegin\nMediumInterface \"m\" \"\"\n" + rough +
-           "Translate 0 0 .8\nShape \"sphere\" \"float radius\" .6\nAttributeEnd\n",
-       128},
-      {"glassAroundAMediumUnderTheSky",
-       kFloor + kWhiteEnvironment + kSmoke +
-           "AttributeBegin\nMediumInterface \"m\" \"\"\nMaterial \"glass\"\n"
-           "Translate 0 0 .8\nShape \"sphere\" \"float radius\" .6\nAttributeEnd\n",
-       256},
-      {"cameraInside", kFloor + point + kThin + mediumBox("m", {-1.9, -4.5, .1}, {1.9, 1.4, 1.9}), 64},
-      {"cameraAndLampInEndlessFog", kFloor + point + kBall, 64,
-       "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .05 .05 .05 ] \"rgb "
-       "sigma_s\" [ .2 .2 .2 ]\nMediumInterface \"\" \"fog\"\n"},
-      {"lampInTheMedium", kFloor + kThin + mediumBox("m", {-1.2, -1.2, .2}, {1.2, 1.2, 2.8}) + kLamp, 64},
-      {"lampAtTheHeightOfTheCamera",
-       kFloor +
-           "AttributeBegin\nAreaLightSource \"diffuse\" \"rgb L\" [ 9 8 6 ]\nMaterial \"matte\" \"rgb Kd\" [ "
-           ".3 "
-           ".3 .3 ]\nShape \"trianglemesh\" \"integer indices\" [ 0 2 1 0 3 2 ] \"point P\" [ -.6 -.6 1.6 .6 "
-           "-.6 1.6 .6 .6 1.6 -.6 .6 1.6 ]\nAttributeEnd\n" +
-           kThin + mediumBox("m", {-.8, -.8, .2}, {.8, .8, 1.3})},
-      {"otherLaw", kFloor + kLamp + inBox(gridMedium("\"string law\" \"linear\" ")), 64},
-      {"lens", kFloor + kLamp + kBall + inBox(kThin), 64, "", 3,
-       "\"perspective\" \"float fov\" 40 \"float lensradius\" .2 \"float focaldistance\" 4"},
-      {"orthographic", kFloor + kLamp + kBall + inBox(kThin), 64, "", 3,
-       "\"orthographic\" \"float screenwindow\" [ -1.5 1.5 -1.5 1.5 ]"},
-      {"environment", kFloor + point + kBall + inBox(kThin), 256, "", 3, "\"environment\""},
-  };
-}
-
-std::string textOf(const AgreementScene& scene, const std::string& integrator, double light = 1,
-                   const std::string& parameters = "") {
-  std::ostringstream os;
-  os << "Film \"image\" \"integer xresolution\" " << kResolution << " \"integer yresolution\" " << kResolution
-     << " \"float scale\" " << light << " \"string filename\" \"unused.exr\"\nPixelFilter \"box\"\n"
-     << "Sampler \"random\" \"integer pixelsamples\" " << scene.samples << "\nIntegrator \"" << integrator
-     << "\" \"integer maxdepth\" " << scene.maxDepth << ' ' << parameters
-     << "\nLookAt 0 -4 1.6  0 0 .9  0 0 1\n"
-     << scene.view << "Camera " << scene.camera << "\nWorldBegin\n"
-     << scene.world << "WorldEnd\n";
-  return os.str();
-}
-
-/// Of each pixel and channel, over renders of several seeds.
-class Images {
- public:
-  void add(const Image& image) {
-    for (int y = 0; y < image.height(); ++y) {
-      for (int x = 0; x < image.width(); ++x) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          const std::size_t i = 3 * static_cast<std::size_t>(y * image.width() + x) + c;
-          if (values_.size() <= i) values_.resize(i + 1);
-          values_[i].add(image.at(x, y, c));
-        }
-      }
-    }
-    for (std::size_t c = 0; c < 3; ++c) means_[c].add(imageMean(image, c));
-  }
-  const std::vector<RunningStats>& values() const { return values_; }
-  const RunningStats& mean(std::size_t c) const { return means_[c]; }
-
- private:
-  std::vector<RunningStats> values_;
-  RunningStats means_[3];
-};
-
-Images render(const AgreementScene& scene, const std::string& integrator, std::uint64_t firstSeed,
-              double light = 1) {
-  Images images;
-  for (std::uint64_t s = 0; s < kSeeds; ++s)
-    images.add(renderText(textOf(scene, integrator, light), {.seed = firstSeed + s}).image);
-  return images;
-}
-
-/// The largest |z| of a pixel, and of the means.
-struct Distance {
-  double ofPixel = 0, ofMean = 0;
-};
-Distance distance(const Images& a, const Images& b) {
-  Distance worst;
-  for (std::size_t i = 0; i < a.values().size(); ++i)
-    worst.ofPixel = std::max(worst.ofPixel, std::abs(zTest(a.values()[i], b.values()[i], kSeed).z()));
-  for (std::size_t c = 0; c < 3; ++c)
-    worst.ofMean = std::max(worst.ofMean, std::abs(zTest(a.mean(c), b.mean(c), kSeed).z()));
-  return worst;
-}
-
-class BdptAgreement : public testing::TestWithParam<AgreementScene> {};
-
-TEST_P(BdptAgreement, WithVolPathPixelByPixel) {
-  const Images bdpt = render(GetParam(), "bdpt", kSeed),
-               volpath = render(GetParam(), "volpath", kSeed + 1000);
-  const Distance apart = distance(bdpt, volpath);
-  for (std::size_t c = 0; c < 3; ++c) {
-    EXPECT_LT(std::abs(zTest(bdpt.mean(c), volpath.mean(c), kSeed).z()), kMaxAbsZ)
-        << zTest(bdpt.mean(c), volpath.mean(c), kSeed);
-  }
-  EXPECT_LT(apart.ofPixel, kMaxAbsZ);
-  // Negative control: some more light is seen.
-  const Images brighter = render(GetParam(), "bdpt", kSeed, kTooBright);
-  const Distance brighterApart = distance(brighter, volpath);
-  EXPECT_GT(brighterApart.ofMean, kMaxAbsZ);
-  std::printf("%-30s worst pixel %.2f, mean %.2f; 5 %% brighter: %.1f, mean %.1f\n", GetParam().name,
-              apart.ofPixel, apart.ofMean, brighterApart.ofPixel, brighterApart.ofMean);
-}
-
-class MltAgreement : public BdptAgreement {};
-
-/// Each channel times a factor.
-Image scaled(Image image, double factor) {
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) image.setRgb(x, y, image.rgb(x, y) * static_cast<float>(factor));
-  }
-  return image;
-}
-
-TEST_P(MltAgreement, WithVolPathPixelByPixel) {
-  const int samples = GetParam().samples;
-  const std::string text =
-      textOf(GetParam(), "mlt", 1,
-             "\"integer mutationsperpixel\" " + std::to_string(16 * samples) +
-                 " \"integer chains\" 40 \"integer bootstrapsamples\" " + std::to_string(150 * samples));
-  Images mlt, brighter;
-  for (std::uint64_t s = 0; s < kSeeds; ++s) {
-    const Image image = renderText(text, {.seed = kSeed + s}).image;
-    mlt.add(image);
-    brighter.add(scaled(image, kTooBright));
-  }
-  const Images volpath = render(GetParam(), "volpath", kSeed + 1000);
-  const Distance apart = distance(mlt, volpath);
-  EXPECT_LT(apart.ofMean, kMaxAbsZ);
-  EXPECT_LT(apart.ofPixel, kMaxAbsZ);
-  // Negative control: some more light is seen.
-  const Distance brighterApart = distance(brighter, volpath);
-  EXPECT_GT(brighterApart.ofMean, kMaxAbsZ);
-  std::printf("%-30s worst pixel %.2f, mean %.2f; 5 %% brighter: %.1f, mean %.1f\n", GetParam().name,
-              apart.ofPixel, apart.ofMean, brighterApart.ofPixel, brighterApart.ofMean);
-}
 
 /// The mean over the image of one seed, with one strategy left out, or none.
 double meanWithout(const std::string& text, std::uint64_t seed, std::optional<BdptParams::Strategy> leftOut) {
@@ -302,10 +67,11 @@ TEST(Bdpt, IsThatOfVolpathWhereNobodyWantsSplats) {
       const std::unique_ptr<Sampler> sampler = made.sampler->clone();
       SplatBuffer nobodys;
       double sum = 0;
-      for (int i = 0; i < kResolution * kResolution; ++i) {
+      for (int i = 0; i < kAgreementResolution * kAgreementResolution; ++i) {
         sum += double{renderSample(*made.camera, *sampler, samplingIntegrator(made),
-                                   {i % kResolution, i / kResolution}, static_cast<std::int64_t>(seed), 1,
-                                   seed, counters, {.splats = splats ? &nobodys : nullptr})
+                                   {i % kAgreementResolution, i / kAgreementResolution},
+                                   static_cast<std::int64_t>(seed), 1, seed, counters,
+                                   {.splats = splats ? &nobodys : nullptr})
                           .g};
       }
       means.add(sum);
@@ -375,11 +141,6 @@ TEST(Bdpt, TakesTheSameBitsForAnyThreadsAndTiles) {
     EXPECT_EQ(one.result.counters.rays, other.result.counters.rays);
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Scenes, MltAgreement, testing::ValuesIn(scenes()),
-                         [](const auto& value) { return std::string(value.param.name); });
-INSTANTIATE_TEST_SUITE_P(Scenes, BdptAgreement, testing::ValuesIn(scenes()),
-                         [](const auto& value) { return std::string(value.param.name); });
 
 }  // namespace
 }  // namespace pbrtmedia::test

@@ -68,6 +68,16 @@ std::string ballOf(const std::string& material, double radius) {
 }
 const std::string kInFog = "Material \"none\" MediumInterface \"m\" \"\"";
 
+/// Media that emit, in the room.
+const std::string kGlow =
+    "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .6 .5 .4 ] \"rgb sigma_s\" [ .5 "
+    ".7 .9 ] \"rgb Le\" [ 4 3 2 ]\n";
+const std::string kFlame =
+    "MakeNamedMedium \"m\" \"string type\" \"heterogeneous\" \"rgb sigma_a\" [ 2 2 2 ] \"rgb sigma_s\" [ 1 1 "
+    "1 "
+    "] \"rgb Le\" [ 4 3 2 ] \"integer nx\" 2 \"integer ny\" 2 \"integer nz\" 3 \"point p0\" [ -.8 -.8 .2 ] "
+    "\"point p1\" [ .8 .8 1.8 ] \"float density\" [ 1 0 .5 .2 0 1 .3 .7 .1 .9 .4 0 ]\n";
+
 /// A loose mat of strands under the lamp, in two directions.
 std::string strands() {
   std::string text;
@@ -139,6 +149,15 @@ INSTANTIATE_TEST_SUITE_P(
         SppmScene{"lamp", kFog + kRoom + ballOf(kInFog, .7) + kLamp, ""},
         SppmScene{"glassAroundFog",
                   kFog + kRoom + ballOf("Material \"glass\" MediumInterface \"m\" \"\"", .6) + kLamp, ""},
+        SppmScene{"glow", kGlow + kRoom + ballOf(kInFog, .7), ""},
+        SppmScene{"flame", kFlame + kRoom + ballOf(kInFog, .7), ""},
+        // The same in two placements, one of them stretched.
+        SppmScene{
+            "flamesPlaced",
+            "ObjectBegin \"flame\"\n" + kFlame + ballOf(kInFog, .7) + "ObjectEnd\n" + kRoom +
+                "AttributeBegin Translate -.4 .2 0 Scale .5 .5 .5 ObjectInstance \"flame\" AttributeEnd\n"
+                "AttributeBegin Translate .4 0 -.3 Scale .6 .6 1.2 ObjectInstance \"flame\" AttributeEnd\n",
+            ""},
         SppmScene{"mixedLobes", roomOf(kMirrorAndMatte) + ballOf(kMirrorAndMatte, .6) + kPoint, ""},
         // Light comes to the room through strands and from them.
         SppmScene{"hair",

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "cameras/camera.h"
+#include "film/side_images.h"
 #include "film/splat_buffer.h"
-#include "integrators/bdpt/path_connector.h"
 #include "integrators/bdpt/subpath_tracer.h"
 
 namespace pbrtmedia {
@@ -15,6 +15,13 @@ namespace {
 
 bool areExponential(const Scene& scene) {
   return std::ranges::all_of(scene.media(), [](const Medium* m) { return m->isExponential(); });
+}
+
+bool hasStrands(const Scene& scene) {
+  const auto groups = scene.primitiveGroups();
+  return std::ranges::any_of(groups, [](const std::vector<const Primitive*>& group) {
+    return std::ranges::any_of(group, [](const Primitive* p) { return isStrand(*p); });
+  });
 }
 
 /// Whether there is vacuum far out.
@@ -40,14 +47,31 @@ BdptIntegrator::BdptIntegrator(const Scene& scene, const BdptParams& params,
              startSelector_.get(),
              media_.hasMedia() || scene.hasShadowAlpha() ? &media_ : nullptr,
              media_.hasEmission(),
+             hasStrands(scene),
              {selector_.get(), startSelector_.get(), isConfined(scene, media_)}} {
-  CHECK(selector_ || scene.lights().empty()) << "lights need a selector";
+  CHECK(selector_ || scene.illuminants().empty()) << "lights need a selector";
 }
 BdptIntegrator::~BdptIntegrator() = default;
 
 bool BdptIntegrator::takes(std::size_t s, std::size_t t) const {
   return !params_.leftOut ||
          !(static_cast<int>(s) == params_.leftOut->s && static_cast<int>(t) == params_.leftOut->t);
+}
+
+std::vector<SideImage> BdptIntegrator::sideImages() const {
+  if (params_.view == StrategyView::None) return {};
+  return strategyImages(params_.maxDepth);
+}
+
+Rgb BdptIntegrator::shown(const Contribution& made) const {
+  if (params_.view == StrategyView::Weighted) return made.weighted;
+  return made.weighted.isBlack() ? Rgb() : made.unweighted;
+}
+
+Rgb BdptIntegrator::taken(std::size_t s, std::size_t t, const Contribution& made,
+                          SampleContext& context) const {
+  if (context.sides) context.sides->addHere(strategyImage(s, t), shown(made));
+  return made.weighted;
 }
 
 Rgb BdptIntegrator::radiance(const RayDifferential& ray, SampleContext& context) const {
@@ -59,22 +83,25 @@ Rgb BdptIntegrator::radiance(const RayDifferential& ray, SampleContext& context)
       SubpathTracer(setup_, context).fromCamera(ray, start, isSeen, camera.pdfWe(ray), found);
   Rgb radiance;
   for (std::size_t depth = 0; depth < found.size(); ++depth) {
-    if (takes(0, depth + 2)) radiance += found[depth];
+    if (takes(0, depth + 2)) radiance += taken(0, depth + 2, found[depth], context);
   }
   const std::optional<Subpath> fromLight = SubpathTracer(setup_, context).fromLight(ray, start);
   PathConnector connector(setup_, context, ray.time);
   PathSamples samples(context.sampler, context.rng, setup_.sampledVertices);
   const auto mostScatterings = static_cast<std::size_t>(params_.maxDepth);
   for (std::size_t j = 0; j < fromCamera.vertices.size(); ++j) {
-    if (!fromCamera.vertices[j].isConnectible()) continue;
-    samples.startVertex(static_cast<int>(j));
+    const PathVertex& vertex = fromCamera.vertices[j];
+    const std::size_t number = vertex.number;
+    if (!vertex.isConnectible()) continue;
+    samples.startVertex(static_cast<int>(number));
     const float uLight = samples.get1D();
     const Point2f u = samples.get2D();
-    if (takes(1, j + 2)) radiance += connector.lookForLight(fromCamera, j, uLight, u).weighted();
+    if (takes(1, number + 2))
+      radiance += taken(1, number + 2, connector.lookForLight(fromCamera, j, uLight, u), context);
     if (!fromLight) continue;
-    for (std::size_t i = 0; i < fromLight->vertices.size() && i + j + 2 <= mostScatterings; ++i) {
-      if (fromLight->vertices[i].isConnectible() && takes(i + 2, j + 2))
-        radiance += connector.connect(fromCamera, j, *fromLight, i).weighted();
+    for (std::size_t i = 0; i < fromLight->vertices.size() && i + number + 2 <= mostScatterings; ++i) {
+      if (fromLight->vertices[i].isConnectible() && takes(i + 2, number + 2))
+        radiance += taken(i + 2, number + 2, connector.connect(fromCamera, j, *fromLight, i), context);
     }
   }
   if (!fromLight || !context.splats) return radiance;
@@ -83,8 +110,9 @@ Rgb BdptIntegrator::radiance(const RayDifferential& ray, SampleContext& context)
     const Point2f lens = samples.get2D();
     if (!fromLight->vertices[i].isConnectible() || !takes(i + 2, 1)) continue;
     const auto onFilm = connector.lookForCamera(*fromLight, i, lens);
-    if (onFilm && onFilm->contribution.weight > 0)
-      context.splats->add(onFilm->film, onFilm->contribution.weighted());
+    if (!onFilm || onFilm->contribution.weighted.isBlack()) continue;
+    context.splats->add(onFilm->film, onFilm->contribution.weighted);
+    if (context.sides) context.sides->add(strategyImage(i + 2, 1), onFilm->film, shown(onFilm->contribution));
   }
   return radiance;
 }

@@ -17,6 +17,9 @@ struct BdptSetup {
   const LightSelector* startSelector;  ///< of light subpaths; null: there are none
   const MediaTopology* media;          ///< null: media are ignored
   bool mediaEmit;                      ///< some medium may emit
+  /// There are curves. They face what rays meet them, so those that light finds are others than the camera's:
+  /// light subpaths end at them.
+  bool hasStrands;
   StrategyWeights weights;
   int sampledVertices = 4;  ///< of a subpath, that the Sampler serves; the others take the Rng
 

@@ -5,6 +5,8 @@
 
 #include "base/warp.h"
 #include "cameras/camera.h"
+#include "world/medium_light.h"
+#include "world/visibility.h"
 
 namespace pbrtmedia {
 namespace {
@@ -40,13 +42,32 @@ Contribution PathConnector::connect(const Subpath& camera, std::size_t j, const 
   const double fromCamera = StrategyWeights::arrival(double{z.directionPdf(z.wo, d)}, z.p, y, way.depth);
   const double others = weights.othersOf(camera, j, {fromLight, pdfBefore(camera, j, d)}) +
                         weights.othersOf(light, i, {fromCamera, pdfBefore(light, i, -d)});
-  return {value * way.transmittance * static_cast<float>(1 / squared), 1 / (1 + others)};
+  Contribution made;
+  made.add(value * way.transmittance * static_cast<float>(1 / squared), 1 / (1 + others));
+  return made;
+}
+
+double PathConnector::weightOf(const Subpath& camera, std::size_t j, const LightPoint& light, Rgb depth,
+                               double looked, double directionPdf) const {
+  const StrategyWeights& weights = setup_.weights;
+  const PathVertex& z = camera.vertices[j];
+  double others = 0;
+  if (!light.isDelta())
+    others += squaredRatio(StrategyWeights::arrival(directionPdf, z.p, light, depth), looked);
+  const double started = squaredRatio(weights.emitted(light, z.p, time_), looked);
+  if (started > 0) {
+    others +=
+        started * weights.othersOf(
+                      camera, j, {weights.departure(light, z, depth, time_), pdfBefore(camera, j, light.d)});
+  }
+  return 1 / (1 + others);
 }
 
 Contribution PathConnector::lookForLight(const Subpath& camera, std::size_t j, float uLight, Point2f u) {
   if (!setup_.selector) return {};
   const PathVertex& z = camera.vertices[j];
   const LightSelector::Choice choice = setup_.selector->choose(z.p, uLight);
+  if (setup_.scene.mediumLight(choice.light)) return lookForMedium(camera, j, choice, u);
   const Light& light = *setup_.scene.lights()[choice.light];
   const LightSample s = light.sample(z.p, u);
   if (!(s.pdf > 0) || s.radiance.isBlack()) return {};
@@ -58,29 +79,51 @@ Contribution PathConnector::lookForLight(const Subpath& camera, std::size_t j, f
       {.d = s.wi, .length = s.distance, .target = target, .hider = setup_.scene.hiderOf(choice.light)}, time_,
       context_);
   if (way.transmittance.isBlack()) return {};
-  Contribution made{value * way.transmittance, 1};
+  Contribution made;
   const float directionPdf = z.directionPdf(z.wo, s.wi);
   if (light.isSplit()) {
-    made.weight = double{powerHeuristic(s.pdf, directionPdf)};
+    made.add(value * way.transmittance, double{powerHeuristic(s.pdf, directionPdf)});
     return made;
   }
-  const StrategyWeights& weights = setup_.weights;
   LightPoint point{.index = choice.light, .light = &light, .n = s.n, .d = s.wi, .isArea = target.isValid()};
   if (!point.isInfinite()) point.p = z.p + s.distance * s.wi;
   const double looked = light.isDelta() ? double{choice.probability}
                                         : StrategyWeights::arrival(double{choice.probability} * double{s.pdf},
                                                                    z.p, point, Rgb());
-  double others = 0;
-  if (!light.isDelta()) {
-    others += squaredRatio(StrategyWeights::arrival(double{directionPdf}, z.p, point, way.depth), looked);
+  made.add(value * way.transmittance, weightOf(camera, j, point, way.depth, looked, double{directionPdf}));
+  return made;
+}
+
+Contribution PathConnector::lookForMedium(const Subpath& camera, std::size_t j,
+                                          const LightSelector::Choice& choice, Point2f u) {
+  if (!setup_.media) return {};
+  const PathVertex& z = camera.vertices[j];
+  const MediumLight& light = *setup_.scene.mediumLight(choice.light);
+  const LightSample s = light.sampleDirection(z.p, u, time_);
+  if (!(s.pdf > 0)) return {};
+  const Rgb value = z.beta * z.scatter(s.wi) * (1 / (s.pdf * choice.probability));
+  const auto span = light.span(z.p, s.wi, time_);
+  if (value.isBlack() || !span) return {};
+  MediumState state = z.state;
+  Exclusions start;
+  if (z.isOnSurface()) {
+    setup_.media->leaveSurface(state, z.hit, z.si, z.coincident, s.wi, context_.counters,
+                               context_.mismatches);
+    start = z.coincident.startingWith(z.hit.hit.id);
   }
-  const double started = squaredRatio(weights.emitted(point, z.p, time_), looked);
-  if (started > 0) {
-    others +=
-        started * weights.othersOf(
-                      camera, j, {weights.departure(point, z, way.depth, time_), pdfBefore(camera, j, s.wi)});
-  }
-  made.weight = 1 / (1 + others);
+  ShadowRay shadow = shadowRayTo(setup_.scene, choice.light, s, z.p, time_, start);
+  shadow.ray.tMax = s.distance;
+  if (!z.isOnSurface()) shadow.from = &z.at;
+  LightPoint point{.index = choice.light, .medium = &light, .d = s.wi, .directionDensity = double{s.pdf}};
+  const auto directionPdf = double{z.directionPdf(z.wo, s.wi)};
+  Contribution made;
+  visitShadowEmission(
+      setup_.shadowContext(context_), shadow, light.medium(), *span, state, context_.stream(),
+      [&](const EmissionOnWay& e) {
+        point.p = Point3f(Vec3d(z.p) + e.t * Vec3d(s.wi));
+        made.add(value * e.radiance,
+                 weightOf(camera, j, point, e.depth, setup_.weights.looked(point, z.p), directionPdf));
+      });
   return made;
 }
 
@@ -99,7 +142,9 @@ std::optional<PathConnector::OnFilm> PathConnector::lookForCamera(const Subpath&
   ray.time = time_;
   const double fromCamera = StrategyWeights::arrival(context_.camera->pdfWe(ray), ray.o, ray.d, y, way.depth);
   const double others = setup_.weights.othersOf(light, i, {fromCamera, pdfBefore(light, i, s.wi)});
-  return OnFilm{s.film, {value * way.transmittance, 1 / (1 + others)}};
+  OnFilm onFilm{s.film, {}};
+  onFilm.contribution.add(value * way.transmittance, 1 / (1 + others));
+  return onFilm;
 }
 
 }  // namespace pbrtmedia

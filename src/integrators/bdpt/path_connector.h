@@ -6,16 +6,10 @@
 
 #include "integrators/bdpt/bdpt_setup.h"
 #include "integrators/bdpt/connecting_way.h"
+#include "integrators/bdpt/contribution.h"
 #include "integrators/bdpt/path_vertex.h"
 
 namespace pbrtmedia {
-
-/// What one strategy brings.
-struct Contribution {
-  Rgb value;          ///< as if it were the only strategy
-  double weight = 0;  ///< its share among all that find the path
-  Rgb weighted() const { return value * static_cast<float>(weight); }
-};
 
 /// Joins two subpaths to paths. Vertices are numbered in their subpath from 0.
 class PathConnector {
@@ -26,7 +20,7 @@ class PathConnector {
   /// A vertex from the camera with one from the light.
   Contribution connect(const Subpath& camera, std::size_t j, const Subpath& light, std::size_t i);
   /// A vertex from the camera with a point of a light that is looked for from there. `uLight` chooses the
-  /// light, `u` the point.
+  /// light, `u` the point; of a medium a direction, along which some points are chosen.
   Contribution lookForLight(const Subpath& camera, std::size_t j, float uLight, Point2f u);
   /// A vertex from the light with the camera; its value is what SplatBuffer takes at `film`. `lens`: uniform
   /// in the unit square.
@@ -37,6 +31,13 @@ class PathConnector {
   std::optional<OnFilm> lookForCamera(const Subpath& light, std::size_t i, Point2f lens);
 
  private:
+  Contribution lookForMedium(const Subpath& camera, std::size_t j, const LightSelector::Choice& choice,
+                             Point2f u);
+  /// Of finding that point of a light by looking for it with the density `looked`, on a way of that control
+  /// depth. `directionPdf`: of that direction, were it chosen by scattering.
+  double weightOf(const Subpath& camera, std::size_t j, const LightPoint& light, Rgb depth, double looked,
+                  double directionPdf) const;
+
   const BdptSetup& setup_;
   SampleContext& context_;
   float time_;

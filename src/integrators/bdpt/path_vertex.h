@@ -13,8 +13,13 @@
 
 namespace pbrtmedia {
 
+class MediumLight;
+
 /// Where a subpath scatters: on a surface, or in a medium.
 struct PathVertex {
+  /// Of its scattering, in order from 0. Where light comes out of a surface that it went below is the same
+  /// scattering as where it went in, in another vertex behind that.
+  std::size_t number = 0;
   Point3f p;                             ///< world
   Vector3f wo;                           ///< unit, toward the vertex before
   Rgb beta;                              ///< of the subpath up to here, without what happens here
@@ -28,9 +33,9 @@ struct PathVertex {
   Bsdf bsdf{};
 
   // For weights (StrategyWeights).
-  Rgb rate{1.0f};           ///< share of each channel in the control's extinction; 1 on a surface
-  Rgb depth{};              ///< what the control says of the way from the vertex before
-  double pdf = 0;           ///< of the point, found from its own end of the path
+  Rgb rate{1.0f};  ///< share of each channel in the control's extinction; 1 on a surface
+  Rgb depth{};     ///< what the control says of the way from the vertex before
+  double pdf = 0;  ///< of the point, found from its own end of the path; infinite: only that end can find it
   bool isSpecular = false;  ///< the subpath goes on by a lobe without extent
   double others = 0;        ///< Subpath::others up to here
 
@@ -50,14 +55,19 @@ struct PathVertex {
 
 /// Where a path ends on a light.
 struct LightPoint {
-  std::size_t index = 0;  ///< in Scene::lights()
-  const Light* light = nullptr;
-  Point3f p{};          ///< world; of no meaning for lights at infinity
-  Normal3f n{};         ///< of hits, where the light is a surface
-  Vector3f d{};         ///< unit, from the path's next vertex to the light
-  bool isArea = false;  ///< p lies on a surface
+  std::size_t index = 0;                ///< in Scene::illuminants()
+  const Light* light = nullptr;         ///< null: the light is a medium
+  const MediumLight* medium = nullptr;  ///< null: it is not
+  Point3f p{};                          ///< world; of no meaning for lights at infinity
+  Normal3f n{};                         ///< of hits, where the light is a surface
+  Vector3f d{};                         ///< unit, from the path's next vertex to the light
+  bool isArea = false;                  ///< p lies on a surface
   double emitted = 0;  ///< density of the point (direction, for lights at infinity) when the path starts here
-  bool isInfinite() const { return light->isAtInfinity(); }
+  /// Per solid angle, with which light samples of a medium choose `d` at the path's next vertex.
+  double directionDensity = 0;
+  bool isInfinite() const { return light && light->isAtInfinity(); }
+  bool isDelta() const { return light && light->isDelta(); }
+  bool isSplit() const { return light && light->isSplit(); }
 };
 
 /// A part of a path from one of its ends: the vertices at which it scatters, in order. `others`: the sum over

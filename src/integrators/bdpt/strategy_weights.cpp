@@ -53,6 +53,7 @@ double StrategyWeights::arrival(double pdf, Point3f from, const PathVertex& to, 
 }
 
 double StrategyWeights::arrival(double pdf, Point3f from, const LightPoint& to, Rgb depth) {
+  if (to.medium) return to.directionDensity > 0 ? pdf / to.directionDensity : 0;
   const double passing = pdf * flightDensity(Rgb(1.0f), depth);
   if (to.isInfinite()) return passing;
   const Way way = wayBetween(from, to.p);
@@ -65,6 +66,7 @@ double StrategyWeights::arrival(WePdf pdf, Point3f from, Vector3f d, const PathV
 }
 
 double StrategyWeights::departure(const LightPoint& from, const PathVertex& to, Rgb depth, float time) const {
+  if (from.medium) return starts_ ? arrival(kAnyDirection, from.p, to, depth) : 0;
   if (!startsOn(*from.light)) return 0;
   const LePdf pdf = from.light->pdfLe(rayFrom(from, to.p, time), from.n);
   if (!from.isInfinite()) return arrival(double{pdf.direction}, from.p, to, depth);
@@ -72,6 +74,7 @@ double StrategyWeights::departure(const LightPoint& from, const PathVertex& to, 
 }
 
 double StrategyWeights::emitted(const LightPoint& light, Point3f next, float time) const {
+  if (light.medium) return starts_ ? double{starts_->probability(next, light.index)} : 0;
   if (!startsOn(*light.light)) return 0;
   const double choice{starts_->probability(next, light.index)};
   if (light.light->isDelta()) return choice;
@@ -88,7 +91,7 @@ float StrategyWeights::lookedDirection(const LightPoint& light, Point3f next) co
 
 double StrategyWeights::looked(const LightPoint& light, Point3f next) const {
   const double choice{selector_->probability(next, light.index)};
-  if (light.light->isDelta()) return choice;
+  if (light.medium || light.isDelta()) return choice;
   const double pdf = choice * double{lookedDirection(light, next)};
   return arrival(pdf, next, light, Rgb());
 }
@@ -97,7 +100,7 @@ void StrategyWeights::scattersOn(Subpath& path, double pdfBack) const {
   const std::size_t count = path.vertices.size();
   const PathVertex& last = path.vertices.back();
   if (count == 1) {
-    if (!path.fromLight || path.light.light->isDelta()) return;
+    if (!path.fromLight || path.light.isDelta()) return;
     path.beforeOthers = squaredRatio(arrival(pdfBack, last.p, path.light, last.depth), path.light.emitted);
     return;
   }
@@ -119,8 +122,7 @@ double StrategyWeights::othersOf(const Subpath& path, std::size_t last, const Fr
   if (!(taken > 0)) return 0;
   if (last == 0) {
     double others = path.firstOthers;
-    if (path.fromLight && !path.light.light->isDelta())
-      others += squaredRatio(from.before, path.light.emitted);
+    if (path.fromLight && !path.light.isDelta()) others += squaredRatio(from.before, path.light.emitted);
     return taken * others;
   }
   const PathVertex& before = path.vertices[last - 1];

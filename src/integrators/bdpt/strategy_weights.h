@@ -22,8 +22,16 @@ namespace pbrtmedia {
 /// The extinction at a collision is a factor that all strategies share, as each of them flies there from one
 /// of its sides: only how it differs among the channels is kept. The way that a strategy connects across is
 /// passed by none of its flights.
+///
+/// Points in media that emit are densities relative to that of the points that their light samples look for,
+/// per volume, which all strategies have in common: looking for light is then the choice of the medium alone,
+/// and so is starting there; a scattered ray finds light by its own density over that of the light samples'
+/// direction, as in `volpath`.
 class StrategyWeights {
  public:
+  /// Per solid angle, of directions in which media emit.
+  static constexpr double kAnyDirection = 1 / (4 * double{kPi});
+
   /// `selector`: of light samples. `starts`: of light subpaths; null: there are none.
   StrategyWeights(const LightSelector* selector, const LightSelector* starts, bool infiniteLightsStart)
       : selector_(selector), starts_(starts), infiniteLightsStart_(infiniteLightsStart) {}

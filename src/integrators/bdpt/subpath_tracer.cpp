@@ -5,9 +5,14 @@
 
 #include "base/warp.h"
 #include "integrators/bdpt/light_surroundings.h"
+#include "materials/bssrdf.h"
 #include "materials/material.h"
+#include "materials/subsurface_exit.h"
+#include "shapes/curves.h"
 #include "spectrum/largest_channel.h"
 #include "world/boundary_planes.h"
+#include "world/media_below.h"
+#include "world/medium_light.h"
 
 namespace pbrtmedia {
 namespace {
@@ -28,6 +33,8 @@ double specularPdfBack(const Bsdf& bsdf, const SurfaceInteraction& si, Vector3f 
 
 }  // namespace
 
+bool isStrand(const Primitive& primitive) { return dynamic_cast<const Curves*>(primitive.shape) != nullptr; }
+
 Subpath SubpathTracer::fromCamera(const Ray& ray, const MediumState& state, bool isSeen, WePdf pdf,
                                   FoundRadiance& found, bool looksBeyond) {
   found.clear();
@@ -46,6 +53,12 @@ std::optional<Subpath> SubpathTracer::fromLight(const Ray& toCamera, const Mediu
   if (!setup_.startSelector || setup_.maxDepth == 0) return std::nullopt;
   const LightSelector::Choice choice = setup_.startSelector->choose(toCamera.o, context_.sampler.get1D());
   const Point2f uPosition = context_.sampler.get2D(), uDirection = context_.sampler.get2D();
+  if (setup_.scene.mediumLight(choice.light)) {
+    ray_.time = toCamera.time;
+    if (!startInMedium(choice, uPosition, uDirection, toCamera.o, atCamera)) return std::nullopt;
+    trace();
+    return std::move(path_);
+  }
   const Light& light = *setup_.scene.lights()[choice.light];
   if (!setup_.weights.startsOn(light)) return std::nullopt;
   const LeSample s = light.sampleLe(uPosition, uDirection, toCamera.time);
@@ -69,16 +82,35 @@ std::optional<Subpath> SubpathTracer::fromLight(const Ray& toCamera, const Mediu
   return std::move(path_);
 }
 
-Rgb& SubpathTracer::foundHere() {
-  const std::size_t scatterings = path_.vertices.size();
-  if (found_->size() <= scatterings) found_->resize(scatterings + 1);
-  return (*found_)[scatterings];
+/// From a point inside an emissive medium, in any direction.
+bool SubpathTracer::startInMedium(const LightSelector::Choice& choice, Point2f uPosition, Point2f uDirection,
+                                  Point3f camera, const MediumState& atCamera) {
+  const MediumLight& light = *setup_.scene.mediumLight(choice.light);
+  ray_.o = light.samplePoint(uPosition, ray_.time);
+  ray_.d = sampleUniformSphere(uDirection);
+  const double pdf =
+      double{choice.probability} * light.pointPdf(ray_.o, ray_.time) * StrategyWeights::kAnyDirection;
+  if (!setup_.media || !(pdf > 0)) return false;
+  state_ = surroundingsOf(setup_, PrimitiveId{}, false, ray_, Normal3f(), camera, atCamera, context_).state;
+  beta_ = light.emissionAt(ray_.o, ray_.time, state_, context_.counters) * static_cast<float>(1 / pdf);
+  path_.light = {.index = choice.light, .medium = &light, .p = ray_.o, .d = -ray_.d};
+  return !beta_.isBlack() && beta_.isFinite();
+}
+
+Contribution& SubpathTracer::foundHere() {
+  if (found_->size() <= scatterings_) found_->resize(scatterings_ + 1);
+  return (*found_)[scatterings_];
 }
 
 void SubpathTracer::trace() {
   path_.vertices.reserve(std::min(kMostReserved, static_cast<std::size_t>(setup_.maxDepth)));
   firstSize_ = largestChannel(beta_);
-  while (goOn() == Event::Vertex && (looksBeyond_ || !seesOnlyEmission()) && scatter()) {
+  while (goOn() == Event::Vertex) {
+    const bool isLast = !looksBeyond_ && seesOnlyEmission();
+    const PathVertex& vertex = path_.vertices.back();
+    // The last scattering may have another vertex, where light comes out from below.
+    if (isLast && !(found_ && vertex.isOnSurface() && vertex.hit.primitive->material->hasBssrdf())) return;
+    if (!scatter() || isLast) return;
   }
 }
 
@@ -129,6 +161,7 @@ SubpathTracer::Event SubpathTracer::follow(MediaWalk& walk, BoundaryPlane start)
     if (found_ && hit->isEmitter()) collectHit(*hit, si);
     if (scatters) {
       if (seesOnlyEmission()) return Event::End;
+      if (path_.fromLight && setup_.hasStrands && isStrand(*hit->primitive)) return Event::End;
       addSurfaceVertex(walk, *hit, si);
       return Event::Vertex;
     }
@@ -185,6 +218,7 @@ void SubpathTracer::addSurfaceVertex(MediaWalk& walk, const SceneHit& hit, const
   if (setup_.media && setup_.scene.hasMediumBoundaries()) vertex.coincident = walk.coincidentWith(hit, si);
   vertex.bsdf = hit.primitive->material->bsdf(
       vertex.si, found_ ? TransportMode::Radiance : TransportMode::Importance, /*mergeSpecular=*/true);
+  if (hit.primitive->material->hasBssrdf()) vertex.bsdf.separateSubsurface();
   vertex.p = si.p;
   vertex.wo = si.wo;
   addVertex(std::move(vertex));
@@ -202,17 +236,22 @@ void SubpathTracer::addVertex(PathVertex vertex) {
         path_.firstOthers > 0 ? StrategyWeights::arrival(pdfCamera_, ray_.o, ray_.d, vertex, depth_) : 1;
   } else {
     LightPoint& light = path_.light;
+    if (light.medium) light.directionDensity = light.medium->directionPdf(vertex.p, light.d, ray_.time);
     light.emitted = setup_.weights.emitted(light, vertex.p, ray_.time);
     vertex.pdf = setup_.weights.departure(light, vertex, depth_, ray_.time);
     path_.firstOthers = squaredRatio(setup_.weights.looked(light, vertex.p), light.emitted);
   }
+  if (found_ && setup_.hasStrands && vertex.isOnSurface() && isStrand(*vertex.hit.primitive)) {
+    vertex.pdf = double{kInfinity};
+  }
+  vertex.number = scatterings_++;
   path_.vertices.push_back(std::move(vertex));
 }
 
 /// Chooses the way from the last vertex; false: the subpath ends there.
 bool SubpathTracer::scatter() {
   PathVertex& vertex = path_.vertices.back();
-  samples_.startVertex(static_cast<int>(path_.vertices.size()) - 1);
+  samples_.startVertex(static_cast<int>(vertex.number));
   return vertex.isOnSurface() ? scatterOnSurface(vertex) : scatterInMedium(vertex);
 }
 
@@ -223,6 +262,49 @@ bool SubpathTracer::scatterOnSurface(PathVertex& vertex) {
   if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
   beta_ *= sample.f * (absDot(sample.wi, vertex.bsdf.shadingNormal()) / sample.pdf);
   if (beta_.isBlack()) return false;
+  return any(sample.flags & BsdfFlags::Subsurface) ? scatterBelowSurface() : leaveSurface(vertex, sample);
+}
+
+/// From where the path went below a surface to where it comes out again, as `volpath` does it. Light subpaths
+/// end: the camera's find what comes out.
+bool SubpathTracer::scatterBelowSurface() {
+  if (path_.fromLight) return false;
+  const PathVertex& entry = path_.vertices.back();
+  const Material& material = *entry.hit.primitive->material;
+  const std::optional<Bssrdf> bssrdf = material.bssrdf(entry.si);
+  if (!bssrdf) return false;
+  const float uWay = samples_.get1D();
+  const std::optional<SubsurfaceEmergence> out = sampleEmergence(
+      setup_.scene, *bssrdf, entry.si, ray_.time, material, uWay, samples_.get2D(), context_.counters.rays);
+  if (!out) return false;
+  beta_ *= out->weight;
+  if (beta_.isBlack()) return false;
+  if (setup_.media && setup_.scene.hasMediumBoundaries()) {
+    passMediaBelow(setup_.walkContext(context_), state_, {entry.hit, entry.si, entry.coincident}, *out,
+                   ray_.time);
+  }
+  PathVertex exit;
+  exit.number = entry.number;
+  exit.hit = out->hit;
+  exit.si = out->si;
+  exit.si.wo = Vector3f(exit.si.shading.n);
+  exit.bsdf = Bsdf(exit.si, TransportMode::Radiance);
+  exit.bsdf.add(Lobe(Rgb(1), RareLobe(SubsurfaceExit(bssrdf->eta(), /*isRadiance=*/true))));
+  exit.p = exit.si.p;
+  exit.wo = exit.si.wo;
+  exit.beta = beta_;
+  exit.state = state_;
+  exit.pdf = double{kInfinity};
+  path_.vertices.push_back(std::move(exit));
+  PathVertex& vertex = path_.vertices.back();
+  const BsdfSample sample = vertex.bsdf.sample(vertex.wo, samples_.get2D());
+  if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
+  beta_ *= sample.f * (absDot(sample.wi, vertex.bsdf.shadingNormal()) / sample.pdf);
+  return leaveSurface(vertex, sample);
+}
+
+bool SubpathTracer::leaveSurface(PathVertex& vertex, const BsdfSample& sample) {
+  const SurfaceInteraction& si = vertex.si;
   vertex.isSpecular = any(sample.flags & BsdfFlags::Specular);
   pdfDirection_ = vertex.isSpecular ? 1 : double{sample.pdf};
   setup_.weights.scattersOn(path_, vertex.isSpecular ? specularPdfBack(vertex.bsdf, si, sample.wi)
@@ -268,12 +350,31 @@ bool SubpathTracer::playRoulette() {
   return true;
 }
 
-/// What the media emit between two surfaces. No other strategy finds it.
+/// What the media emit between two surfaces. Other strategies find what is where their light samples look.
 void SubpathTracer::collectMediumEmission(const MediaStretch& stretch) {
   for (std::size_t i = 0; i < state_.activeCount(); ++i) {
-    if (!state_.active(i).medium->isEmissive()) continue;
+    const PlacedMedium m = state_.active(i);
+    if (!m.medium->isEmissive()) continue;
     const EmissionSamples found = stretch.sampleEmission(i, context_.stream(), context_.counters);
-    for (const EmissionSamples::Sample& e : found) foundHere() += beta_ * e.radiance;
+    if (found.count == 0) continue;
+    const auto number = path_.vertices.empty() ? std::nullopt : setup_.scene.lightOf(m);
+    const MediumLight* const light = number ? setup_.scene.mediumLight(*number) : nullptr;
+    const auto span = light ? light->span(ray_.o, ray_.d, ray_.time) : std::nullopt;
+    LightPoint point;
+    if (span) {
+      point = {.index = *number,
+               .medium = light,
+               .d = ray_.d,
+               .directionDensity = light->directionPdf(ray_.o, ray_.d, ray_.time)};
+    }
+    for (const EmissionSamples::Sample& e : found) {
+      double weight = 1;
+      if (span && e.t >= span->tMin && e.t <= span->tMax) {
+        point.p = Point3f(Vec3d(ray_.o) + e.t * Vec3d(ray_.d));
+        weight = weightOf(point, depth_ + stretch.upTo(e.t).control().depth);
+      }
+      foundHere().add(beta_ * e.radiance, weight);
+    }
   }
 }
 
@@ -295,9 +396,10 @@ void SubpathTracer::collectHit(const SceneHit& hit, const SurfaceInteraction& si
                        .p = si.p,
                        .n = si.n,
                        .d = ray_.d,
-                       .isArea = true});
+                       .isArea = true},
+                      depth_);
   }
-  foundHere() += beta_ * emitted * static_cast<float>(weight);
+  foundHere().add(beta_ * emitted, weight);
 }
 
 void SubpathTracer::collectBackground() {
@@ -306,25 +408,25 @@ void SubpathTracer::collectBackground() {
     const Rgb background = light->background(ray_.d);
     if (background.isBlack()) continue;
     const double weight =
-        path_.vertices.empty() ? 1 : weightOf({.index = index, .light = light, .d = ray_.d});
-    foundHere() += beta_ * background * static_cast<float>(weight);
+        path_.vertices.empty() ? 1 : weightOf({.index = index, .light = light, .d = ray_.d}, depth_);
+    foundHere().add(beta_ * background, weight);
   }
 }
 
-/// Of the light that the way at hand has found.
-double SubpathTracer::weightOf(const LightPoint& light) const {
+/// Of the light that the way at hand has found, behind that depth of it.
+double SubpathTracer::weightOf(const LightPoint& light, Rgb depth) const {
   const StrategyWeights& weights = setup_.weights;
   const PathVertex& last = path_.vertices.back();
-  if (light.light->isSplit()) {
+  if (light.isSplit()) {
     if (last.isSpecular) return 1;
     const float pdf = weights.lookedDirection(light, last.p);
     return double{powerHeuristic(static_cast<float>(pdfDirection_), pdf)};
   }
-  const double found = StrategyWeights::arrival(pdfDirection_, last.p, light, depth_);
+  const double found = StrategyWeights::arrival(pdfDirection_, last.p, light, depth);
   double others = last.isSpecular ? 0 : squaredRatio(weights.looked(light, last.p), found);
   const std::size_t count = path_.vertices.size();
   const double taken = squaredRatio(weights.emitted(light, last.p, ray_.time), found) *
-                       squaredRatio(weights.departure(light, last, depth_, ray_.time), last.pdf);
+                       squaredRatio(weights.departure(light, last, depth, ray_.time), last.pdf);
   if (taken > 0) {
     if (count == 1) {
       others += taken * (last.isSpecular ? 0 : path_.firstOthers);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "integrators/bdpt/bdpt_setup.h"
+#include "integrators/bdpt/contribution.h"
 #include "integrators/bdpt/path_vertex.h"
 #include "integrators/path/path_samples.h"
 #include "materials/transport_mode.h"
@@ -12,8 +13,11 @@
 namespace pbrtmedia {
 
 /// Radiance that a camera subpath finds by itself, by the number of its scatterings up to the last that finds
-/// some: strategies without a vertex from the light's end, and what media emit.
-using FoundRadiance = std::vector<Rgb>;
+/// some: strategies without a vertex from the light's end.
+/// Whether a surface is that of curves (BdptSetup::hasStrands).
+bool isStrand(const Primitive& primitive);
+
+using FoundRadiance = std::vector<Contribution>;
 
 /// Walks one subpath, from the camera or from a light. Boundaries without material are crossed on the way and
 /// are no vertices.
@@ -41,6 +45,8 @@ class SubpathTracer {
   void addVertex(PathVertex vertex);
   bool scatter();
   bool scatterOnSurface(PathVertex& vertex);
+  bool scatterBelowSurface();
+  bool leaveSurface(PathVertex& vertex, const BsdfSample& sample);
   bool scatterInMedium(PathVertex& vertex);
   bool playRoulette();
   void trace();
@@ -48,12 +54,14 @@ class SubpathTracer {
   void collectMediumEmission(const MediaStretch& stretch);
   void collectHit(const SceneHit& hit, const SurfaceInteraction& si);
   void collectBackground();
-  double weightOf(const LightPoint& light) const;
+  double weightOf(const LightPoint& light, Rgb depth) const;
+  bool startInMedium(const LightSelector::Choice& choice, Point2f uPosition, Point2f uDirection,
+                     Point3f camera, const MediumState& atCamera);
 
-  bool seesOnlyEmission() const { return static_cast<int>(path_.vertices.size()) >= setup_.maxDepth; }
+  bool seesOnlyEmission() const { return static_cast<int>(scatterings_) >= setup_.maxDepth; }
   bool isDirect() const { return path_.vertices.empty() || path_.vertices.back().isSpecular; }
   /// What the subpath finds after as many scatterings as there are now.
-  Rgb& foundHere();
+  Contribution& foundHere();
 
   const BdptSetup& setup_;
   SampleContext& context_;
@@ -74,6 +82,7 @@ class SubpathTracer {
   float firstSize_ = 1;                        ///< of `beta_` at the start
   std::vector<std::uint32_t> passedEmitters_;  ///< without material, by PrimitiveId::geometry
   ScatteringsInPlace inPlace_;
+  std::size_t scatterings_ = 0;  ///< so far
 
   Subpath path_;
 };

@@ -64,12 +64,15 @@ class Finder {
       FoundRadiance found;
       cameraSubpath(depth, found, true);
       const auto scatterings = static_cast<std::size_t>(depth);
-      return scatterings < found.size() ? found[scatterings] : Rgb();
+      return scatterings < found.size() ? found[scatterings].weighted : Rgb();
     }
     const int lightVertices = fromLight - 1, cameraVertices = depth - lightVertices;
     FoundRadiance ignored;
     const Subpath camera = cameraSubpath(cameraVertices, ignored, false);
-    if (!endsAt(camera, cameraVertices)) return {};
+    if (camera.vertices.empty() ||
+        camera.vertices.back().number + 1 != static_cast<std::size_t>(cameraVertices)) {
+      return {};
+    }
     std::optional<Subpath> light;
     if (lightVertices > 0) {
       light = lightSubpath(lightVertices);
@@ -78,10 +81,18 @@ class Finder {
     Rng rng = begin(Stream::Connection);
     SampleContext context = contextOf(rng);
     PathConnector connector(setup_, context, ray_.time);
-    const std::size_t last = camera.vertices.size() - 1;
-    if (light) return connector.connect(camera, last, *light, light->vertices.size() - 1).weighted();
-    const float uLight = sampler_.get1D();
-    return connector.lookForLight(camera, last, uLight, sampler_.get2D()).weighted();
+    Rgb sum;
+    for (std::size_t j = 0; j < camera.vertices.size(); ++j) {
+      const PathVertex& vertex = camera.vertices[j];
+      if (vertex.number + 1 != static_cast<std::size_t>(cameraVertices) || !vertex.isConnectible()) continue;
+      if (light) {
+        sum += connector.connect(camera, j, *light, light->vertices.size() - 1).weighted;
+      } else {
+        const float uLight = sampler_.get1D();
+        sum += connector.lookForLight(camera, j, uLight, sampler_.get2D()).weighted;
+      }
+    }
+    return sum;
   }
 
   StrategySample seenFromLight(int depth) {
@@ -93,7 +104,7 @@ class Finder {
                            .lookForCamera(*light, light->vertices.size() - 1, sampler_.get2D());
     if (!found || !isIn(film_.bounds, found->film)) return {};
     const auto share = static_cast<float>(film_.imageArea / static_cast<double>(film_.bounds.area()));
-    return {found->film, share * found->contribution.weighted()};
+    return {found->film, share * found->contribution.weighted};
   }
 
   Subpath cameraSubpath(int vertices, FoundRadiance& found, bool looksBeyond) {

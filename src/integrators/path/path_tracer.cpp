@@ -8,6 +8,7 @@
 #include "media/phase/phase_function.h"
 #include "spectrum/largest_channel.h"
 #include "world/boundary_planes.h"
+#include "world/media_below.h"
 #include "world/subsurface_probe.h"
 
 namespace pbrtmedia {
@@ -246,7 +247,9 @@ bool PathTracer::scatterBelowSurface() {
   if (!out) return false;
   beta_ *= out->weight;
   if (beta_.isBlack()) return false;
-  if (setup_.media && setup_.scene.hasMediumBoundaries()) followMediaBelow(out->hit, out->si);
+  if (setup_.media && setup_.scene.hasMediumBoundaries()) {
+    passMediaBelow(walkContext(), state_, {surface_.hit, surface_.si, surface_.coincident}, *out, ray_.time);
+  }
   surface_ = {out->hit, out->si, {}};
   SurfaceInteraction& si = surface_.si;
   si.wo = Vector3f(si.shading.n);
@@ -258,30 +261,6 @@ bool PathTracer::scatterBelowSurface() {
   if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
   beta_ *= sample.f * (absDot(sample.wi, bsdf.shadingNormal()) / sample.pdf);
   return leaveSurface(bsdf, sample);
-}
-
-/// What media are outside of the surface where the path leaves it, if it went below it at `surface_`: those
-/// of a straight way between the two.
-void PathTracer::followMediaBelow(const SceneHit& exit, const SurfaceInteraction& out) {
-  const SurfaceInteraction& in = surface_.si;
-  const MediaTopology& media = *setup_.media;
-  media.leaveSurface(state_, surface_.hit, in, surface_.coincident, -faceForward(in.n, in.wo), counters_,
-                     context_.mismatches);
-  const Vector3f way = out.p - in.p;
-  const float distance = length(way);
-  if (distance > 0) {
-    Ray ray;
-    ray.o = in.p;
-    ray.d = way / distance;
-    ray.tMax = distance;
-    ray.time = ray_.time;
-    Exclusions ends = surface_.coincident.startingWith(surface_.hit.hit.id);
-    ends.add(exit.hit.id, distance);
-    MediaWalk(walkContext(), state_, LineWalk(setup_.scene, ray, ends)).crossAll();
-  }
-  SurfaceInteraction fromBelow = out;
-  fromBelow.wo = -Vector3f(out.n);
-  media.leaveSurface(state_, exit, fromBelow, {}, Vector3f(out.n), counters_, context_.mismatches);
 }
 
 bool PathTracer::leaveSurface(const Bsdf& bsdf, const BsdfSample& sample) {

@@ -80,7 +80,6 @@ class PathTracer {
   bool scatterOnSurface();
   bool scatterBelowSurface();
   bool leaveSurface(const Bsdf& bsdf, const BsdfSample& sample);
-  void followMediaBelow(const SceneHit& exit, const SurfaceInteraction& out);
   struct LobeChoice {
     BsdfFlags lobes = BsdfFlags::All;
     float share = 1;  ///< probability

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/sppm/photon_tracer.h"
 
+#include "base/warp.h"
 #include "materials/bsdf.h"
 #include "materials/material.h"
 #include "spectrum/largest_channel.h"
 #include "world/boundary_planes.h"
+#include "world/medium_light.h"
 #include "world/state_at_start.h"
 #include "world/visibility.h"
 
@@ -28,8 +30,10 @@ void PhotonTracer::trace(Photons& out) {
 bool PhotonTracer::leaveLight() {
   const Scene& scene = setup_.scene;
   const LightSelector::Choice choice = setup_.selector.choose(Point3f(), sampler_.get1D());
-  const Light& light = *scene.lights()[choice.light];
   const Point2f uPosition = sampler_.get2D(), uDirection = sampler_.get2D();
+  if (const MediumLight* const medium = scene.mediumLight(choice.light))
+    return leaveMedium(*medium, choice.probability, uPosition, uDirection);
+  const Light& light = *scene.lights()[choice.light];
   const LeSample sample = light.sampleLe(uPosition, uDirection, setup_.time);
   if (!(sample.pdf.direction > 0) || !(sample.pdf.position > 0) || sample.radiance.isBlack()) return false;
   power_ = sample.radiance * (absDot(sample.normal, sample.ray.d) /
@@ -43,6 +47,22 @@ bool PhotonTracer::leaveLight() {
   strength_ = largestChannel(power_);
   if (setup_.media) state_ = stateAtLight(light);
   return !power_.isBlack();
+}
+
+/// From a point inside an emissive medium, in any direction.
+bool PhotonTracer::leaveMedium(const MediumLight& light, float probability, Point2f uPosition,
+                               Point2f uDirection) {
+  ray_.o = light.samplePoint(uPosition, setup_.time);
+  ray_.d = sampleUniformSphere(uDirection);
+  ray_.time = setup_.time;
+  ray_.tMax = kInfinity;
+  const double pdf = light.pointPdf(ray_.o, setup_.time) * double{probability};
+  if (!setup_.media || !(pdf > 0)) return false;
+  state_ = setup_.media->stateAt(ray_.o, setup_.time, counters_);
+  const Rgb emission = light.emissionAt(ray_.o, setup_.time, state_, counters_);
+  power_ = emission * static_cast<float>(4 * double{kPi} / pdf);
+  strength_ = largestChannel(power_);
+  return !power_.isBlack() && power_.isFinite();
 }
 
 /// What the first stretch of the ray lies in. Light from infinity is dimmed by what is around the scene.

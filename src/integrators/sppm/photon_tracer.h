@@ -20,7 +20,7 @@ namespace pbrtmedia {
 struct PhotonSetup {
   const Scene& scene;             ///< after Scene::prepareEmission
   const MediaTopology* media;     ///< null: there are none
-  const LightSelector& selector;  ///< of Scene::lights(), the same everywhere
+  const LightSelector& selector;  ///< of Scene::illuminants(), the same everywhere
   int fewestScatterings = 1;      ///< before a photon is stored; direct light is known better otherwise
   int mostScatterings = 0;        ///< before the last vertex
   float time = 0;                 ///< of the scene
@@ -51,6 +51,7 @@ class PhotonTracer {
   };
 
   bool leaveLight();
+  bool leaveMedium(const MediumLight& light, float probability, Point2f uPosition, Point2f uDirection);
   MediumState stateAtLight(const Light& light);
   PathEvent flyToEvent();
   bool collides(const MediaWalk& walk, const SceneHit* nearest, const BoundaryPlane& start);

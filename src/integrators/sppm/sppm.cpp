@@ -302,7 +302,7 @@ SppmIntegrator::SppmIntegrator(const Scene& scene, const SppmParams& params,
       media_(scene, std::move(cameraMedium)),
       singleScattering_(scene.lights(), selector_.get(), pathParams_.mediumLightSampling) {
   CHECK(selector_ || scene.illuminants().empty()) << "lights need a selector";
-  CHECK(photonSelector_ || scene.lights().empty()) << "lights need a selector";
+  CHECK(photonSelector_ || scene.illuminants().empty()) << "lights need a selector";
 }
 SppmIntegrator::~SppmIntegrator() = default;
 

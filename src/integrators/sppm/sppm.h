@@ -38,8 +38,8 @@ struct SppmParams {
 /// negative.
 class SppmIntegrator final : public Integrator {
  public:
-  /// `selector`: of Scene::illuminants(), for light samples; `photonSelector`: of Scene::lights(), the same
-  /// everywhere. Both null where there are none. After Scene::prepareEmission.
+  /// `selector`: of Scene::illuminants(), for light samples; `photonSelector`: of the same, but the
+  /// same everywhere. Both null where there are none. After Scene::prepareEmission.
   SppmIntegrator(const Scene& scene, const SppmParams& params, std::unique_ptr<const LightSelector> selector,
                  std::unique_ptr<const LightSelector> photonSelector, CameraMedium cameraMedium);
   ~SppmIntegrator() override;

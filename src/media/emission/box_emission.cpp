@@ -31,6 +31,13 @@ Point3f BoxEmission::sample(const std::array<double, 3>& u) const {
   return p;
 }
 
+double BoxEmission::density(Point3f p) const {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!(p[a] >= box_.min[a] && p[a] <= box_.max[a])) return 0;
+  }
+  return 1 / volume_;
+}
+
 double BoxEmission::directionDensity(const Segment& line) const {
   const auto span = clipToBox(Bounds3d{Vec3d(box_.min), Vec3d(box_.max)}, Vec3d(line.o), Vec3d(line.d),
                               line.tMin, line.tMax);

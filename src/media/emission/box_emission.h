@@ -14,6 +14,7 @@ class BoxEmission final : public EmissionVolume {
   static std::unique_ptr<const EmissionVolume> over(const Bounds3f& box, Rgb emission, Rgb sigmaT);
 
   Point3f sample(const std::array<double, 3>& u) const override;
+  double density(Point3f p) const override;
   double directionDensity(const Segment& line) const override;
   Bounds3f bounds() const override { return box_; }
   Rgb total() const override { return total_; }

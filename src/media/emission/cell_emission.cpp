@@ -78,6 +78,19 @@ Point3f CellEmission::sample(const std::array<double, 3>& u) const {
   return Point3f(worldFromLocal_.point(local));
 }
 
+double CellEmission::density(Point3f p) const {
+  const Vec3d local = localFromWorld_.point(Vec3d(p));
+  const auto& n = lattice_.shape.count;
+  const auto cellAlong = [&](std::size_t a, std::int64_t count) -> std::int64_t {
+    if (!(local[a] >= lattice_.box.min[a] && local[a] <= lattice_.box.max[a])) return -1;
+    return std::clamp(static_cast<std::int64_t>(std::floor(local[a] / lattice_.cellSize[a])), std::int64_t{0},
+                      count - 1);
+  };
+  const std::int64_t i = cellAlong(0, n.x), j = cellAlong(1, n.y), k = cellAlong(2, n.z);
+  if (i < 0 || j < 0 || k < 0) return 0;
+  return static_cast<double>(weights_[static_cast<std::size_t>(lattice_.shape.index(i, j, k))]) / sum_;
+}
+
 double CellEmission::directionDensity(const Segment& segment) const {
   const Vec3d o = localFromWorld_.point(Vec3d(segment.o)), d = localFromWorld_.vector(Vec3d(segment.d));
   const auto span = clipToBox(lattice_.box, o, d, segment.tMin, segment.tMax);

@@ -30,6 +30,7 @@ class CellEmission final : public EmissionVolume {
                                                     Rgb radiance);
 
   Point3f sample(const std::array<double, 3>& u) const override;
+  double density(Point3f p) const override;
   double directionDensity(const Segment& line) const override;
   Bounds3f bounds() const override { return bounds_; }
   Rgb total() const override { return total_; }

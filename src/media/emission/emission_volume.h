@@ -18,6 +18,9 @@ class EmissionVolume {
   virtual ~EmissionVolume() = default;
   /// A point of the volume; `u` in [0, 1) each.
   virtual Point3f sample(const std::array<double, 3>& u) const = 0;
+  /// The density of such points, per volume of this space: positive where the medium emits within `bounds`,
+  /// up to the rounding of points.
+  virtual double density(Point3f p) const = 0;
   /// The density of the direction from the start of a line (t = 0) to such a point: the integral of t² times
   /// the density of points per volume of this space, over the part of the line inside.
   virtual double directionDensity(const Segment& line) const = 0;
