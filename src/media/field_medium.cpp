@@ -129,7 +129,7 @@ MediumPoint FieldMedium::at(Point3f p, RenderCounters& counters) const {
   if (!kernel_->superVoxels().occupied().contains(local)) return {};
   ++counters.densityLookups;
   const float density = kernel_->density(local);
-  return {sigmaS_ * density, emission_.at(Vec3d(p), density)};
+  return {sigmaS_ * density, sigmaT_ * density, emission_.at(Vec3d(p), density)};
 }
 
 FlightControl FieldMedium::flightControl(const Segment& segment) const {

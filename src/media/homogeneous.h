@@ -28,7 +28,7 @@ class HomogeneousMedium final : public Medium {
   const PhaseFunction& phase() const override { return *phase_; }
   Rgb sigmaT() const override { return sigmaT_; }
   double densestScattering() const override { return sigmaS_.isBlack() ? 0 : double{sigmaT_.max()}; }
-  MediumPoint at(Point3f, RenderCounters&) const override { return {sigmaS_, emission_}; }
+  MediumPoint at(Point3f, RenderCounters&) const override { return {sigmaS_, sigmaT_, emission_}; }
   FlightControl flightControl(const Segment& segment) const override;
   bool isEmissive() const override { return !emission_.isBlack(); }
   EmissionSamples sampleEmission(const Segment& segment, PixelStream random,

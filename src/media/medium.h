@@ -33,6 +33,7 @@ struct FreeFlight {
 /// What there is at one point of a medium, per world length.
 struct MediumPoint {
   Rgb sigmaS;    ///< scattering coefficient
+  Rgb sigmaT;    ///< extinction coefficient
   Rgb emission;  ///< sigma_a Le: radiance gained
 };
 

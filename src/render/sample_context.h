@@ -12,6 +12,7 @@ class Camera;
 struct MismatchLog;
 class SideSplats;
 class SplatBuffer;
+class TileMemory;
 
 /// What one camera sample carries through the renderer. Lives on the stack of one thread.
 struct SampleContext {
@@ -26,6 +27,8 @@ struct SampleContext {
   PixelSample pixelSample = {};  ///< what `rng` serves, for patterns over the samples of a pixel
 
   const Camera* camera = nullptr;  ///< whose sample it is, for integrators that look for it from the scene
+  Point2i pixel = {};
+  TileMemory* memory = nullptr;  ///< of SamplingIntegrator::tileMemory; null: samples share nothing
 
   /// Where integrators with Integrator::sideImages put what the sample brings to them; null: nobody wants it.
   SideSplats* sides = nullptr;

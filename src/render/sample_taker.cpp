@@ -51,8 +51,11 @@ Rgb renderSample(const Camera& camera, Sampler& sampler, const SamplingIntegrato
                                             static_cast<std::uint32_t>(pixel.y), kPatternTag),
                                 static_cast<std::uint64_t>(sample),
                                 static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel, 0)), 0};
+  const std::unique_ptr<TileMemory> own = output.memory ? nullptr : integrator.tileMemory(camera, seed);
   SampleContext context{sampler,       rng,           counters,    output.mismatches,
                         output.splats, output.layers, pixelSample, &camera};
+  context.pixel = pixel;
+  context.memory = output.memory ? output.memory : own.get();
   SideSplats sides(output.sides, cameraSample.film, weighted.weight);
   if (!output.sides.empty()) context.sides = &sides;
   const Rgb radiance = weighted.weight * integrator.radiance(weighted.ray, context);
@@ -67,7 +70,8 @@ SampleTaker::SampleTaker(const Camera& camera, const Sampler& sampler, const Sam
       integrator_(integrator),
       film_(film),
       options_(options),
-      samplesPerPixel_(samplesPerPixel) {}
+      samplesPerPixel_(samplesPerPixel),
+      memory_(integrator.tileMemory(camera, options.seed)) {}
 
 void SampleTaker::take(Point2i pixel, std::int64_t index, int slot, SamplePass& pass, UnitReport& report,
                        SplatBuffer* splats, std::span<SplatBuffer> sides) {
@@ -79,9 +83,14 @@ void SampleTaker::take(Point2i pixel, std::int64_t index, int slot, SamplePass& 
   const LayerSample layers = pass.layersAt(pixel, slot);
   const double secondsBefore = secondsOf(layers);
   const std::size_t splatsBefore = splats ? splats->size() : 0;
-  Rgb radiance = renderSample(
-      camera_, *sampler_, integrator_, pixel, index, samplesPerPixel_, options_.seed, report.counters,
-      {.mismatches = &log, .film = &film, .splats = splats, .layers = layers, .sides = sides});
+  Rgb radiance = renderSample(camera_, *sampler_, integrator_, pixel, index, samplesPerPixel_, options_.seed,
+                              report.counters,
+                              {.mismatches = &log,
+                               .film = &film,
+                               .splats = splats,
+                               .layers = layers,
+                               .sides = sides,
+                               .memory = memory_.get()});
   if (layers.isWanted()) {
     layers.set(Layer::Samples, 1.0f);
     layers.set(Layer::Seconds, static_cast<float>(secondsOf(layers) - secondsBefore));

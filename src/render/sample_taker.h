@@ -25,6 +25,7 @@ struct SampleOutput {
   SplatBuffer* splats = nullptr;
   LayerSample layers{};
   std::span<SplatBuffer> sides{};  ///< by Integrator::sideImages
+  TileMemory* memory = nullptr;    ///< of the integrator; null: the sample gets one for itself
 };
 
 /// One sample, as every render takes it: a pure function of seed, pixel and sample index. Radiance before the
@@ -46,6 +47,9 @@ class SampleTaker {
   void take(Point2i pixel, std::int64_t index, int slot, SamplePass& pass, UnitReport& report,
             SplatBuffer* splats, std::span<SplatBuffer> sides = {});
 
+  /// Density look-ups for what its samples share.
+  std::uint64_t sharedLookups() const { return memory_ ? memory_->lookups() : 0; }
+
  private:
   /// Whether the film takes it; a value that it does not take is black and noted, with its cause.
   bool admit(Rgb& radiance, Point2i pixel, std::int64_t index, UnitReport& report) const;
@@ -56,6 +60,7 @@ class SampleTaker {
   const Film& film_;
   const RenderOptions& options_;
   std::int64_t samplesPerPixel_;
+  std::unique_ptr<TileMemory> memory_;
 };
 
 }  // namespace pbrtmedia

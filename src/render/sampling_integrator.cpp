@@ -156,6 +156,12 @@ class TileLoop {
   void renderTile(const Bounds2i& tile, const Pass& pass, SamplePass& samples, UnitReport& report,
                   SplatBuffer* splats, std::span<SplatBuffer> sides) {
     SampleTaker taker(camera_, sampler_, integrator_, film_, options_, samplesPerPixel_);
+    takeTile(tile, pass, taker, samples, report, splats, sides);
+    report.counters.densityLookups += taker.sharedLookups();
+  }
+
+  void takeTile(const Bounds2i& tile, const Pass& pass, SampleTaker& taker, SamplePass& samples,
+                UnitReport& report, SplatBuffer* splats, std::span<SplatBuffer> sides) {
     for (int y = tile.min.y; y < tile.max.y; ++y) {
       for (int x = tile.min.x; x < tile.max.x; ++x) {
         for (int s = 0; s < pass.count; ++s) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <cstdint>
+#include <memory>
+
 #include "base/ray.h"
 #include "render/integrator.h"
 #include "render/sample_context.h"
+#include "render/tile_memory.h"
 #include "spectrum/rgb.h"
 
 namespace pbrtmedia {
@@ -15,6 +19,11 @@ class SamplingIntegrator : public Integrator {
   /// `ray`: world space, unit direction, differentials already scaled by 1/sqrt(samples per pixel).
   /// Thread-safe.
   virtual Rgb radiance(const RayDifferential& ray, SampleContext& context) const = 0;
+  /// What `radiance` finds in SampleContext::memory; null: it looks for nothing there. Borrows all.
+  virtual std::unique_ptr<TileMemory> tileMemory(const Camera& camera, std::uint64_t seed) const {
+    (void)camera, (void)seed;
+    return nullptr;
+  }
   /// What every sample can tell, and `layersOfRays`.
   LayerMask layers() const final;
   /// Those that `radiance` sets in SampleContext::layers when they are wanted, without any effect on what it

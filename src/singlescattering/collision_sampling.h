@@ -17,7 +17,8 @@ struct CollisionSampling {
     return {.summary = "where the path collides, as in PBRT-v3",
             .source = "Pharr, Jakob & Humphreys 2016, section 15.3.1",
             .useWhen = "lights are far away or media dense, or PBRT-v3's noise is wanted",
-            .onStretches = false};
+            .onStretches = false,
+            .followsLights = false};
   }
 
   std::optional<StretchSample> sample(const LitStretch&, Point2f) const { return std::nullopt; }

@@ -17,6 +17,12 @@ struct LitStretch {
   double extinction;  ///< MediaStretch::meanExtinction, > 0
 };
 
+/// The point at `t` of a stretch.
+inline Point3f pointOf(const MediaStretch& media, double t) {
+  const Ray& ray = media.ray();
+  return Point3f(Vec3d(ray.o) + t * Vec3d(ray.d));
+}
+
 /// The density per length with which the path's flight collides at a distance, by its control
 /// (MediaStretch::flightDensity), and samples a light there. Computed when it is asked for.
 class CollisionDensity {

@@ -7,10 +7,15 @@
 #include <vector>
 
 #include "base/variant_names.h"
+#include "singlescattering/attenuation_driven_sampling.h"
+#include "singlescattering/attenuation_driven_sir_sampling.h"
 #include "singlescattering/auto_sampling.h"
 #include "singlescattering/collision_sampling.h"
 #include "singlescattering/equiangular_sampling.h"
 #include "singlescattering/mis_sampling.h"
+#include "singlescattering/scattering_driven_sampling.h"
+#include "singlescattering/source_driven_sampling.h"
+#include "singlescattering/source_scattering_mis_sampling.h"
 
 namespace pbrtmedia {
 
@@ -25,7 +30,26 @@ namespace pbrtmedia {
 ///                         const CollisionDensity& collisions) const;
 /// A sample of a stretch counts `weight`, its share divided by its density; the light sample of a collision
 /// at `t` counts `collisionShare` of itself. Where light arrives, the shares of both must sum to one.
-using MediumLightSampling = std::variant<AutoSampling, CollisionSampling, EquiangularSampling, MisSampling>;
+///
+/// Those that explore a stretch have instead of the three
+///   void sample(const ExploredStretch& stretch, Point2f u, Rng& rng, RenderCounters& counters,
+///               visit(const StretchSample&)) const;
+/// which tells all samples of the stretch, StretchSample::walked included: any number, in any order. They
+/// leave nothing to collisions, but all on stretches without an end.
+using MediumLightSampling =
+    std::variant<AutoSampling, CollisionSampling, EquiangularSampling, MisSampling, AttenuationDrivenSampling,
+                 AttenuationDrivenSirSampling, SourceDrivenSampling, ScatteringDrivenSampling,
+                 SourceScatteringMisSampling>;
+
+/// Of those that explore.
+template <class Sampling>
+concept ExploringSampling = !requires(const Sampling& s, const LitStretch& stretch) {
+  s.sample(stretch, {});
+};
+
+inline bool explores(const MediumLightSampling& sampling) {
+  return std::visit([]<class Held>(const Held&) { return ExploringSampling<Held>; }, sampling);
+}
 
 inline MediumLightSamplingTraits traitsOf(const MediumLightSampling& sampling) {
   return std::visit([](const auto& held) { return held.traits(); }, sampling);

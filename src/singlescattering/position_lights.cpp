@@ -107,4 +107,37 @@ double PositionLights::pdf(std::size_t light, const Stretch& stretch, double t) 
   return sum > 0 ? lights_[slot].power * own->strength() / sum * atDistance : 0;
 }
 
+double PositionLights::strengthAt(const Entry& e, Point3f p) {
+  // A point on the light itself is so near that floats cannot tell how near.
+  constexpr double kTiny = 1e-60;
+  return e.power / std::max(lengthSquared(Vec3d(p) - e.position), kTiny);
+}
+
+PositionLights::Choice PositionLights::choose(Point3f p, float u) const {
+  if (lights_.size() == 1) return {lights_[0].light, 1};
+  if (!weighsEach()) {
+    const Distribution1D::Choice c = byPower_.choose(u);
+    return {lights_[c.index].light, double{c.probability}};
+  }
+  double sum = 0;
+  for (const Entry& e : lights_) sum += strengthAt(e, p);
+  double rest = double{u} * sum;
+  std::size_t chosen = 0;
+  for (; chosen + 1 < lights_.size(); ++chosen) {
+    const double strength = strengthAt(lights_[chosen], p);
+    if (rest < strength) break;
+    rest -= strength;
+  }
+  return {lights_[chosen].light, strengthAt(lights_[chosen], p) / sum};
+}
+
+double PositionLights::probability(Point3f p, std::size_t light) const {
+  if (lights_.size() == 1) return 1;
+  const std::size_t slot = slots_[light];
+  if (!weighsEach()) return double{byPower_.probability(slot)};
+  double sum = 0;
+  for (const Entry& e : lights_) sum += strengthAt(e, p);
+  return strengthAt(lights_[slot], p) / sum;
+}
+
 }  // namespace pbrtmedia

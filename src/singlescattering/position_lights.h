@@ -37,6 +37,20 @@ class PositionLights {
   /// Density of `sample` at one of these lights and a distance.
   double pdf(std::size_t light, const Stretch& stretch, double t) const;
 
+  struct Choice {
+    std::size_t light;
+    double probability;
+  };
+  /// A light for a point, by power over the square of the distance; where they are many, by power. There is a
+  /// light. `u` in [0, 1).
+  Choice choose(Point3f p, float u) const;
+  /// That `choose` answers with this one of its lights.
+  double probability(Point3f p, std::size_t light) const;
+  /// What one of these lights sends to a point, shadows left out.
+  LightSample sampleAt(std::size_t light, Point3f p) const {
+    return lights_[slots_[light]].source->sample(p, {});
+  }
+
  private:
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
   /// Up to here lights are chosen by what they do on the stretch; more of them by their power alone, as
@@ -50,6 +64,8 @@ class PositionLights {
     double power;
   };
   static std::optional<Equiangular> over(const Entry& e, const Stretch& stretch);
+  /// How much a light is chosen for a point, up to a common factor.
+  static double strengthAt(const Entry& e, Point3f p);
   bool weighsEach() const { return lights_.size() <= kMostWeighed; }
 
   std::vector<Entry> lights_;

@@ -12,6 +12,8 @@ struct MediumLightSamplingTraits {
   std::string_view useWhen;  ///< advice, in one sentence
   /// Stretches take samples, besides collisions or instead of them.
   bool onStretches = true;
+  /// Samples of stretches lie close to lights, so that thin media around these have little noise.
+  bool followsLights = true;
 };
 
 }  // namespace pbrtmedia

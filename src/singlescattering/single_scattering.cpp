@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "singlescattering/single_scattering.h"
 
+#include "singlescattering/explore.h"
 #include "world/visibility.h"
 
 namespace pbrtmedia {
@@ -20,9 +21,23 @@ std::optional<LitStretch> SingleScattering::lit(const MediaStretch& media) const
   return with(media, extinction);
 }
 
-std::optional<StretchSample> SingleScattering::sample(const LitStretch& stretch, Point2f u) const {
-  return std::visit([&](const auto& sampling) { return sampling.sample(stretch, u); }, sampling_);
+namespace {
+
+/// What the way of sampling says of a sample: its share divided by its density.
+double weightOf(const MediumLightSampling& sampling, const StretchSample& sample,
+                const CollisionDensity& collisions) {
+  return std::visit(
+      [&]<class Sampling>(const Sampling& held) {
+        if constexpr (ExploringSampling<Sampling>) {
+          return sample.walked->weight;
+        } else {
+          return held.weight(sample, collisions);
+        }
+      },
+      sampling);
 }
+
+}  // namespace
 
 Rgb SingleScattering::radiance(const LitStretch& stretch, const StretchSample& sample, const ScatterPoint& at,
                                Rgb throughput, const MediaWalk::Context& shadows, PixelStream random) const {
@@ -30,12 +45,14 @@ Rgb SingleScattering::radiance(const LitStretch& stretch, const StretchSample& s
   const Ray& ray = before.ray();
   const LightSample light = table_[sample.light]->sample(at.p, {});
   if (!(light.pdf > 0) || light.radiance.isBlack()) return {};
-  const Rgb scattered = before.scattering(sample.t, -ray.d, light.wi, shadows.counters);
+  const bool isKnown = sample.walked && sample.walked->sigmaS;
+  const Rgb scattered =
+      isKnown ? *sample.walked->sigmaS * before.state().active(0).medium->phase().evaluate(-ray.d, light.wi)
+              : before.scattering(sample.t, -ray.d, light.wi, shadows.counters);
   if (scattered.isBlack()) return {};
   const CollisionDensity collisions(before, *selector_, sample.light, sample.t, at.p);
-  const double weight =
-      std::visit([&](const auto& sampling) { return sampling.weight(sample, collisions); }, sampling_);
-  const Rgb through = before.transmittance(random, shadows.counters);
+  const double weight = weightOf(sampling_, sample, collisions);
+  const Rgb through = sample.walked ? sample.walked->through : before.transmittance(random, shadows.counters);
   if (through.isBlack()) return {};
   ShadowRay shadow = shadowRayTo(shadows.scene, sample.light, light, at.p, ray.time, {});
   shadow.from = &at;
@@ -48,9 +65,15 @@ float SingleScattering::collisionShare(const LitStretch& stretch, std::size_t li
                                        Point3f p) const {
   if (!lights_.contains(light)) return 1;
   const CollisionDensity collisions(stretch.media, *selector_, light, t, p);
-  return static_cast<float>(
-      std::visit([&](const auto& sampling) { return sampling.collisionShare(stretch, light, t, collisions); },
-                 sampling_));
+  return static_cast<float>(std::visit(
+      [&]<class Sampling>(const Sampling& sampling) -> double {
+        if constexpr (ExploringSampling<Sampling>) {
+          return isExplorable(stretch.media) ? 0 : 1;
+        } else {
+          return sampling.collisionShare(stretch, light, t, collisions);
+        }
+      },
+      sampling_));
 }
 
 }  // namespace pbrtmedia

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <variant>
 #include <vector>
 
 #include "lights/light.h"
+#include "singlescattering/explored_stretch.h"
 #include "singlescattering/medium_light_sampling.h"
 #include "singlescattering/position_lights.h"
 #include "world/media_walk.h"
@@ -29,8 +32,24 @@ class SingleScattering {
   /// The same where that has been settled: by `lit`, which gave this extinction.
   LitStretch with(const MediaStretch& media, double extinction) const { return {media, lights_, extinction}; }
 
-  /// A light and a distance. `u` in [0, 1)².
-  std::optional<StretchSample> sample(const LitStretch& stretch, Point2f u) const;
+  /// Tells the samples to be taken on the stretch, one by one. `u` in [0, 1)². `near`: explorers that
+  /// neighbours have found on rays like this one, in order of distance; empty: none.
+  template <class Visit>
+  void sample(const LitStretch& stretch, Point2f u, std::span<const Explorer> near, Rng& rng,
+              RenderCounters& counters, Visit&& visit) const {
+    std::visit(
+        [&]<class Sampling>(const Sampling& sampling) {
+          if constexpr (ExploringSampling<Sampling>) {
+            if (const auto explored = ExploredStretch::over(stretch, near, counters))
+              sampling.sample(*explored, u, rng, counters, visit);
+          } else if (const std::optional<StretchSample> sample = sampling.sample(stretch, u)) {
+            visit(*sample);
+          }
+        },
+        sampling_);
+  }
+  /// Whether `sample` makes use of explorers.
+  bool explores() const { return onStretches_ && pbrtmedia::explores(sampling_); }
   /// What the sample says of the radiance that arrives at the stretch's start, times `throughput`. `at`: its
   /// point. `shadows`: counts shadow rays.
   Rgb radiance(const LitStretch& stretch, const StretchSample& sample, const ScatterPoint& at, Rgb throughput,

@@ -87,14 +87,20 @@ Rgb MediaStretch::scattering(double t, Vector3f wo, Vector3f wi, RenderCounters&
   return sum;
 }
 
-Rgb MediaStretch::sigmaS(double t, RenderCounters& counters) const {
+MediaStretch::Coefficients MediaStretch::coefficients(double t, RenderCounters& counters) const {
   const MediaStretch point(*state_, *ray_, t, t);
-  Rgb sum;
+  Coefficients sum;
   for (std::size_t i = 0; i < state_->activeCount(); ++i) {
     const PlacedMedium m = state_->active(i);
-    sum += m.medium->at(point.segmentIn(m).at(t), counters).sigmaS;
+    const MediumPoint there = m.medium->at(point.segmentIn(m).at(t), counters);
+    sum.sigmaS += there.sigmaS;
+    sum.sigmaT += there.sigmaT;
   }
   return sum;
+}
+
+Rgb MediaStretch::sigmaS(double t, RenderCounters& counters) const {
+  return coefficients(t, counters).sigmaS;
 }
 
 FlightControl MediaStretch::control() const {

@@ -45,6 +45,11 @@ class MediaStretch {
   /// What the media scatter at `t` from `wi` toward `wo` per length: the sum of sigma_s times the phase
   /// function. `wi` away from the point, as `wo`.
   Rgb scattering(double t, Vector3f wo, Vector3f wi, RenderCounters& counters) const;
+  /// What the media together scatter and take away at `t`, 1/length.
+  struct Coefficients {
+    Rgb sigmaS, sigmaT;
+  };
+  Coefficients coefficients(double t, RenderCounters& counters) const;
   /// The scattering coefficient of the media together at `t`, 1/length.
   Rgb sigmaS(double t, RenderCounters& counters) const;
   /// What the media's controls say together: optical depth of the stretch, extinction at its end.

@@ -98,7 +98,9 @@ TEST(ConstructVolPath, KnowsEveryWayOfSamplingLightsInMedia) {
     return attemptWorld("Shape \"sphere\"", {},
                         "Integrator \"volpath\" \"string mediumlightsampling\" \"" + word + "\"");
   };
-  for (const std::string word : {"auto", "collision", "equiangular", "mis"}) {
+  for (const std::string word :
+       {"auto", "collision", "equiangular", "mis", "attenuation-driven", "attenuation-driven-sir",
+        "source-driven", "scattering-driven", "source-scattering-mis"}) {
     EXPECT_EQ(with(word).find(Severity::Error, "mediumlightsampling"), nullptr) << word;
   }
   EXPECT_NE(with("equiangle").find(Severity::Error, "equiangular"), nullptr);

@@ -11,6 +11,7 @@
 #include "materials/bsdf.h"
 #include "media/phase/phase_function.h"
 #include "render/ray_layers.h"
+#include "singlescattering/shared_explorers.h"
 #include "singlescattering/single_scattering.h"
 #include "world/media_walk.h"
 #include "world/visibility.h"
@@ -26,6 +27,7 @@ struct PathSetup {
   const MediaTopology* media;                ///< null: media are ignored
   const SingleScattering* singleScattering;  ///< null: collisions alone sample lights in media
   bool mediaEmit;                            ///< some medium may emit
+  SharedExplorers* explorers = nullptr;      ///< of camera rays; null: each path explores for itself
 };
 
 /// One path of `path` or `volpath`, from the camera to its end. Every vertex takes one light sample, and its

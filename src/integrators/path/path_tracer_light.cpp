@@ -124,13 +124,17 @@ void PathTracer::lightMedium() {
 /// may collide and sample the same light: `collisionShare` divides the work.
 void PathTracer::lightStretch(const LitStretch& stretch, const SceneHit* hit, const BoundaryPlane& start) {
   const float u = samples_.get1D(), v = samples_.get1D();
-  const std::optional<StretchSample> sample = setup_.singleScattering->sample(stretch, {u, v});
-  if (!sample) return;
-  const ScatterPoint at =
-      scatterPointOn(setup_.scene, ray_, sample->t, stretch.media.tMax(), hit, start, counters_);
-  if (!isFinite(at.p)) return;
-  gather(setup_.singleScattering->radiance(stretch, *sample, at, beta_, shadowContext(), context_.stream()),
-         bounces_ + 1, RayLayers::Scatterer::Medium);
+  const std::span<const Explorer> near =
+      setup_.explorers && bounces_ == 0 ? setup_.explorers->of(context_.pixel) : std::span<const Explorer>();
+  setup_.singleScattering->sample(
+      stretch, {u, v}, near, context_.rng, counters_, [&](const StretchSample& sample) {
+        const ScatterPoint at =
+            scatterPointOn(setup_.scene, ray_, sample.t, stretch.media.tMax(), hit, start, counters_);
+        if (!isFinite(at.p)) return;
+        gather(
+            setup_.singleScattering->radiance(stretch, sample, at, beta_, shadowContext(), context_.stream()),
+            bounces_ + 1, RayLayers::Scatterer::Medium);
+      });
 }
 
 /// What the media emit between two surfaces.

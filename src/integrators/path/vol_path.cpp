@@ -3,6 +3,7 @@
 
 #include <glog/logging.h>
 
+#include "integrators/path/path_memory.h"
 #include "integrators/path/path_tracer.h"
 
 namespace pbrtmedia {
@@ -18,6 +19,11 @@ VolPathIntegrator::VolPathIntegrator(const Scene& scene, const PathParams& param
 }
 VolPathIntegrator::~VolPathIntegrator() = default;
 
+std::unique_ptr<TileMemory> VolPathIntegrator::tileMemory(const Camera& camera, std::uint64_t seed) const {
+  if (!media_.hasMedia() || !singleScattering_.explores()) return nullptr;
+  return std::make_unique<PathMemory>(media_, camera, seed);
+}
+
 LayerMask VolPathIntegrator::layersOfRays() const {
   // Without scattering nobody asks what the camera ray meets.
   return params_.maxDepth > 0 ? RayLayers::ofMedia() : RayLayers::ofRadiance(/*rendersMedia=*/true);
@@ -32,7 +38,8 @@ Rgb VolPathIntegrator::radiance(const RayDifferential& ray, SampleContext& conte
                         selector_.get(),
                         hasMedia || scene().hasShadowAlpha() ? &media_ : nullptr,
                         hasMedia ? &singleScattering_ : nullptr,
-                        media_.hasEmission()};
+                        media_.hasEmission(),
+                        context.memory ? &static_cast<PathMemory*>(context.memory)->explorers() : nullptr};
   return PathTracer(setup, ray, media_.stateOf(ray, context.counters), context).trace();
 }
 

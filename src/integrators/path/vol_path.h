@@ -21,6 +21,7 @@ class VolPathIntegrator final : public SamplingIntegrator {
                     std::unique_ptr<const LightSelector> selector, CameraMedium cameraMedium);
   ~VolPathIntegrator() override;
   std::string_view typeName() const override { return "volpath"; }
+  std::unique_ptr<TileMemory> tileMemory(const Camera& camera, std::uint64_t seed) const override;
   LayerMask layersOfRays() const override;
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
   const CameraMedium& cameraMedium() const { return media_.camera(); }
