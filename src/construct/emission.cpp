@@ -46,7 +46,6 @@ bool usesTemperature(ParamReader& in, ParamKind kind, std::string_view name, boo
   }
   const float scale = in.floats("Lescale").size() == 1 ? in.floats("Lescale").front() : 1.0f;
   p.le = Rgb(scale);
-  requireExponentialLaw(in, p);
   warnIfNothingEmits(in, in.locationOf(kind, name), p);
   return true;
 }
@@ -116,11 +115,6 @@ EmissionPlan productOf(EmissionPlan a, EmissionPlan b) {
 }
 
 }  // namespace
-
-void requireExponentialLaw(ParamReader& in, const FieldMediumParams& p) {
-  if (p.le.isBlack() || !p.estimator || std::holds_alternative<ExponentialLaw>(lawOf(*p.estimator))) return;
-  in.error(ParamKind::String, "law", "a medium that emits follows the exponential law only");
-}
 
 void readEmission(ParamReader& in, const MediumDescription& medium, MediumParams& p) {
   p.le = nonNegative(in, "Le", in.findSpectrum("Le", Rgb(0)));

@@ -16,9 +16,6 @@ namespace pbrtmedia {
 /// Reads what every medium emits: "Le" and one "Lescale".
 void readEmission(ParamReader& in, const MediumDescription& medium, MediumParams& p);
 
-/// An error for a medium that emits under another law than the exponential.
-void requireExponentialLaw(ParamReader& in, const FieldMediumParams& p);
-
 /// Makes the pattern of an emission, given the medium's place. Empty: there is none.
 using EmissionPlan = std::function<std::shared_ptr<const EmissionPattern>(const Transform& worldFromMedium)>;
 

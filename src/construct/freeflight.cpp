@@ -12,9 +12,12 @@ namespace pbrtmedia {
 
 namespace {
 
-std::string flightsThatServe(const AnyLaw& law) {
+std::string flightsThatServe(const AnyLaw& law, bool walksPieces) {
   std::vector<std::string_view> names = flightNames();
-  std::erase_if(names, [&](std::string_view name) { return !traitsOf(*findFlight(name)).laws.has(law); });
+  std::erase_if(names, [&](std::string_view name) {
+    const FlightTraits traits = traitsOf(*findFlight(name));
+    return !traits.laws.has(law) || (traits.needsPieces && !walksPieces);
+  });
   return joinedNames(names);
 }
 
@@ -31,9 +34,7 @@ AnyFlight readFreeFlight(ParamReader& in, const AnyLaw& law, bool walksPieces, b
     in.error(ParamKind::String, "freeflight",
              "unknown free-flight sampler \"" + *name + "\"" + suggestion(*name, names));
   }
-  if ((!name || *name == "auto") && walksPieces && scatters && !traitsOf(flight).laws.has(law)) {
-    flight = flightOfAnyLaw();
-  }
+  if ((!name || *name == "auto") && !traitsOf(flight).laws.has(law)) flight = flightOfAnyLaw(walksPieces);
   readParameters(in, flight);
   const FlightTraits traits = traitsOf(flight);
   if (scatters && !traits.laws.has(law)) {
@@ -41,7 +42,7 @@ AnyFlight readFreeFlight(ParamReader& in, const AnyLaw& law, bool walksPieces, b
     text += nameOf(flight);
     text += "\" follow " + joinedNames(traits.laws.names()) + "; for a medium that scatters, the law \"";
     text += nameOf(law);
-    text += "\" is served by " + flightsThatServe(law);
+    text += "\" is served by " + flightsThatServe(law, walksPieces);
     in.error(ParamKind::String, name ? "freeflight" : "law", text);
   }
   std::string what = "free-flight sampler \"";

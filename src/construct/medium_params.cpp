@@ -68,7 +68,6 @@ void readFieldMediumParams(ParamReader& in, const MediumDescription& medium, Den
   const bool walksPieces = inPieces && p.bounds.source == BoundsParams::Source::Exact;
   p.estimator = readTransmittance(in, walksPieces);
   const AnyLaw law = p.estimator ? lawOf(*p.estimator) : AnyLaw();
-  requireExponentialLaw(in, p);
   p.flights = readFreeFlight(in, law, walksPieces, p.sigmaS.max() > 0);
   p.pattern = findOwnEnum(in, "pattern", kPatternNames, p.pattern);
   if (const float sigmaT = (p.sigmaA + p.sigmaS).max();

@@ -11,11 +11,12 @@
 namespace pbrtmedia {
 namespace {
 
-std::vector<std::string_view> estimatorsThatServe(const AnyLaw& law) {
-  std::vector<std::string_view> names;
-  for (const std::string_view name : estimatorNames()) {
-    if (traitsOf(*findEstimator(name)).laws.has(law)) names.push_back(name);
-  }
+std::vector<std::string_view> estimatorsThatServe(const AnyLaw& law, bool walksPieces) {
+  std::vector<std::string_view> names = estimatorNames();
+  std::erase_if(names, [&](std::string_view name) {
+    const EstimatorTraits traits = traitsOf(*findEstimator(name));
+    return !traits.laws.has(law) || (traits.needsPieces && !walksPieces);
+  });
   return names;
 }
 
@@ -50,7 +51,7 @@ std::optional<AnyEstimator> readTransmittance(ParamReader& in, bool walksPieces)
         std::string text = "estimator \"";
         text += nameOf(estimator);
         text += "\" serves " + joinedNames(traitsOf(estimator).laws.names()) + "; the law \"" + *lawName +
-                "\" is served by " + joinedNames(estimatorsThatServe(*law));
+                "\" is served by " + joinedNames(estimatorsThatServe(*law, walksPieces));
         in.error(ParamKind::String, "law", text);
       }
     } else {

@@ -30,6 +30,7 @@ struct DecompositionTracking {
             "collisions with a known lower bound of the density for free, the residual by null collisions",
         .source = "Kutz et al. 2017, section 4",
         .useWhen = "lower bounds are well above 0 and look-ups are dear",
+        .laws = LawSet::mixtures(),
         .unitWeights = true};
   }
 

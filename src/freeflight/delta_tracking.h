@@ -29,6 +29,7 @@ struct DeltaTracking {
         .source = "Woodcock et al. 1965; Kutz et al. 2017",
         .useWhen = "bounds are proven, or classical results are to be reproduced",
         .control = EstimatorTraits::Control::Bounding,
+        .laws = LawSet::mixtures(),
         .unitWeights = true};
   }
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "freeflight/any_flight.h"
+#include "freeflight/debiased_flight.h"
 #include "freeflight/decomposition_tracking.h"
 #include "freeflight/delta_tracking.h"
 #include "freeflight/marched_flight.h"
@@ -25,7 +26,7 @@ namespace pbrtmedia {
 /// whose weights are those of the flight times the importance of the channels. Every decision is one
 /// dimension of the stream.
 using FlightVariant = std::variant<WeightedDeltaTracking, DeltaTracking, DecompositionTracking,
-                                   SingleParticleTracking, MarchedFlight, RegularFlight>;
+                                   SingleParticleTracking, DebiasedFlight, MarchedFlight, RegularFlight>;
 
 struct AnyFlight::Held {
   FlightVariant variant;

@@ -17,8 +17,9 @@ struct FlightTraits {
   std::string_view biasNote = "";  ///< when and how large; empty: nothing to add
   EstimatorTraits::Control control = EstimatorTraits::Control::Any;
   LawSet laws = LawSet::exponential();
-  bool needsPieces = false;  ///< asks for a PiecewiseCubicLine (fields/density_line.h)
-  bool unitWeights = false;  ///< one channel, under a bounding control: every weight is exactly 1
+  bool needsPieces = false;    ///< asks for a PiecewiseCubicLine (fields/density_line.h)
+  bool mayBeNegative = false;  ///< weights, even under a bounding control
+  bool unitWeights = false;    ///< one channel, under a bounding control: every weight is exactly 1
 };
 
 }  // namespace pbrtmedia

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "fields/density_line.h"
 #include "freeflight/flight_query.h"
 #include "freeflight/flight_sample.h"
+#include "freeflight/mixed_poisson_process.h"
 #include "transmittance/parts/bounded_lookup.h"
 #include "transmittance/parts/channel_shares.h"
 #include "transmittance/sample_stream.h"
@@ -18,14 +20,19 @@ enum class Collision { Null, Real, Absorbed };
 
 /// The walk of all samplers with null collisions: tentative collisions with the rate `rateOf(bound)` times
 /// the largest channel's sigma_t, piecewise constant; `decide(s, bound, flight)` says what each is and
-/// updates the weights. Absorbed: the path ends there with weight 0.
+/// updates the weights. Absorbed: the path ends there with weight 0. Under another law that is a mixture of
+/// exponential ones they are the points of a MixedPoissonProcess, and all else stays.
 template <DensityLine Line, std::size_t N, class RateOf, class Decide>
 FlightSample<N> flyWithNullCollisions(const Line& line, const FlightQuery<N>& query, SampleStream& stream,
                                       const RateOf& rateOf, const Decide& decide) {
   FlightSample<N> flight{.weight = query.importance};
   const double sigmaMax = maxOf(query.sigmaT);
   if (!(sigmaMax > 0)) return flight;
-  double depth = stream.exponential();  // optical depth of the majorant to the next tentative collision
+  std::optional<MixedPoissonProcess> process;
+  if (query.law != nullptr) process.emplace(*query.law, stream);
+  // Optical depth of the majorant to the next tentative collision.
+  const auto next = [&] { return process ? process->next(stream) : stream.exponential(); };
+  double depth = next();
   line.walk([&](double sEnter, double sExit, const auto& bound) {
     if (!(bound.upper > 0)) {
       probeTrusted(line, sEnter, sExit, 0, stream.rng(), flight.tally);
@@ -47,7 +54,7 @@ FlightSample<N> flyWithNullCollisions(const Line& line, const FlightQuery<N>& qu
         return false;
       }
       ++flight.tally.nullCollisions;
-      depth = stream.exponential();
+      depth = next();
     }
   });
   return flight;

@@ -56,7 +56,8 @@ struct SingleParticleTracking {
                 "tentative collisions at any rate; the particle scatters, transmits or is absorbed, weighted",
             .source = "Szirmay-Kalos et al. 2017, section 4",
             .useWhen =
-                "bounds are unknown or loose, and single peaks above the sampling extinction are tolerable"};
+                "bounds are unknown or loose, and single peaks above the sampling extinction are tolerable",
+            .laws = LawSet::mixtures()};
   }
 
   template <DensityLine Line, std::size_t N>

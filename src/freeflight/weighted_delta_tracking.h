@@ -37,6 +37,7 @@ struct WeightedDeltaTracking {
             "tentative collisions at the rate of the bound; null extinction may be negative, with weights",
         .source = "Woodcock et al. 1965; Kutz et al. 2017; Misso et al. 2023",
         .useWhen = "always: under a bound it is delta tracking, under a wrong one it stays unbiased",
+        .laws = LawSet::mixtures(),
         .unitWeights = true};
   }
 

@@ -75,8 +75,10 @@ FieldMedium::FieldMedium(const FieldMediumParams& params, std::string_view typeN
                                                    .batchedLookups = kernel_->hasBatches()});
   law_ = lawOf(estimator_);
   isExponential_ = std::holds_alternative<ExponentialLaw>(law_);
-  if (!traitsOf(flights_).laws.has(law_) && !sigmaS_.isBlack()) {
-    throw SceneError(SourceLocation{}, "these free flights follow the exponential law only");
+  if (!isExponential_) collisions_ = collisionEstimatorOf(estimator_);
+  fliesUnderLaw_ = traitsOf(flights_).laws.has(law_);
+  if (!fliesUnderLaw_ && !sigmaS_.isBlack()) {
+    throw SceneError(SourceLocation{}, "these free flights do not follow the law of the medium");
   }
   if (!kernel_->hasPieces() && (traitsOf(estimator_).needsPieces || traitsOf(flights_).needsPieces)) {
     throw SceneError(SourceLocation{},
@@ -85,7 +87,8 @@ FieldMedium::FieldMedium(const FieldMediumParams& params, std::string_view typeN
 }
 
 bool FieldMedium::mayBeNegative() const {
-  return !kernel_->bounds().areProven() || traitsOf(estimator_).mayLeaveUnitInterval;
+  return !kernel_->bounds().areProven() || traitsOf(estimator_).mayLeaveUnitInterval ||
+         traitsOf(flights_).mayBeNegative;
 }
 
 double FieldMedium::densestScattering() const {
@@ -109,7 +112,7 @@ FreeFlight FieldMedium::sampleFreeFlight(const Segment& segment, Rgb throughput,
   explore(*line, random, counters);
   // What only absorbs dims: its collisions would end paths and nothing else.
   if (sigmaS_.isBlack()) return {false, 0, dimmed(*line, segment, random, counters)};
-  const AnyLaw* const law = isExponential_ ? nullptr : &law_;
+  const AnyLaw* const law = lawOfFlights();
   const Rgb sigmaT = trackedSigmaT();
   FreeFlight flight =
       sigmaT.isGrey()
@@ -152,21 +155,34 @@ EmissionSamples FieldMedium::sampleEmission(const Segment& segment, PixelStream 
   EmissionSamples samples;
   const auto line = emissionLine(segment);
   if (!line) return samples;
-  EmissionSampler sampler(EmissionSampler::kDefensiveShare, random.rng());
-  // Under another law a collision is not extinction times transmittance.
-  const bool flies = emission_.addTo(sampler, *line, isExponential_);
+  EmissionSampler sampler(EmissionSampler::kDefensiveShare, random.rng(), lawOfFlights());
+  const bool flies = emission_.addTo(sampler, *line, fliesUnderLaw_);
   if (const auto distance = sampler.distance()) {
     ++counters.densityLookups;
     const double t = std::clamp(line->tEntry() + distance->s, segment.tMin, segment.tMax);
     const Rgb emission = emission_.at(pointOf(segment, t), kernel_->density(*line, distance->s));
     const double weight = distance->tag / distance->pdf;
     if (!emission.isBlack()) {
-      const Rgb through = transmittance({segment.o, segment.d, segment.tMin, t}, random, counters);
-      samples.add(t, through * emission * static_cast<float>(weight));
+      const Segment before{segment.o, segment.d, segment.tMin, t};
+      const Rgb seen =
+          isExponential_ ? transmittance(before, random, counters) : collisionShare(before, random, counters);
+      samples.add(t, seen * emission * static_cast<float>(weight));
     }
   }
   if (flies) flyToEmission(samples, *line, segment, random, counters);
   return samples;
+}
+
+Rgb FieldMedium::collisionShare(const Segment& segment, PixelStream random, RenderCounters& counters) const {
+  Rgb share(1.0f);
+  if (const auto line = lineOf(segment)) {
+    explore(*line, random, counters);
+    const Rgb sigmaT = trackedSigmaT() * static_cast<float>(collisions_.depthScale);
+    share = sigmaT.isGrey()
+                ? estimate(*line, segment, collisions_.estimator, Channels<1>{sigmaT.r}, random, counters)
+                : estimate(*line, segment, collisions_.estimator, channelsOf(sigmaT), random, counters);
+  }
+  return share * static_cast<float>(collisionsAtStart(law_));
 }
 
 void FieldMedium::flyToEmission(EmissionSamples& samples, const ClippedLine& emissionLine,
@@ -175,10 +191,12 @@ void FieldMedium::flyToEmission(EmissionSamples& samples, const ClippedLine& emi
   if (!line) return;
   const Rgb sigmaT = trackedSigmaT();
   const FreeFlight flight =
-      sigmaT.isGrey() ? flyOn(*line, segment, FlightQuery<1>{.sigmaT = {sigmaT.r}}, random, counters)
+      sigmaT.isGrey() ? flyOn(*line, segment, FlightQuery<1>{.sigmaT = {sigmaT.r}, .law = lawOfFlights()},
+                              random, counters)
                       : flyOn(*line, segment,
                               FlightQuery<3>{.sigmaT = channelsOf(sigmaT),
-                                             .importance = importanceOf(channelsOf(emission_.sourceOf()))},
+                                             .importance = importanceOf(channelsOf(emission_.sourceOf())),
+                                             .law = lawOfFlights()},
                               random, counters);
   if (!flight.collided) return;
   const double t = std::clamp(flight.t, segment.tMin, segment.tMax);
@@ -268,8 +286,8 @@ Rgb FieldMedium::dimmed(const ClippedLine& line, const Segment& segment, PixelSt
   if (line.isRefined() && isExponential_) [[unlikely]]
     return dimmedOrOpaque(line, segment, random, counters);
   const Rgb sigmaT = trackedSigmaT();
-  return sigmaT.isGrey() ? estimate(line, segment, Channels<1>{sigmaT.r}, random, counters)
-                         : estimate(line, segment, channelsOf(sigmaT), random, counters);
+  return sigmaT.isGrey() ? estimate(line, segment, estimator_, Channels<1>{sigmaT.r}, random, counters)
+                         : estimate(line, segment, estimator_, channelsOf(sigmaT), random, counters);
 }
 
 double FieldMedium::trackedShare() const {
@@ -289,15 +307,16 @@ Rgb FieldMedium::dimmedOrOpaque(const ClippedLine& line, const Segment& segment,
   kernel_->walk(line, AnyVisit(add));
   Channels<3> clear = channelsOf(sigmaT_);
   for (double& sigma : clear) sigma = sigma * column >= kOpaque ? 0 : sigma;
-  const Rgb through = clear == Channels<3>{} ? Rgb(1.0f) : estimate(line, segment, clear, random, counters);
+  const Rgb through =
+      clear == Channels<3>{} ? Rgb(1.0f) : estimate(line, segment, estimator_, clear, random, counters);
   Rgb result;
   for (std::size_t c = 0; c < 3; ++c) result[c] = sigmaT_[c] * column >= kOpaque ? 0 : through[c];
   return result;
 }
 
 template <std::size_t N>
-Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT,
-                          PixelStream random, RenderCounters& counters) const {
+Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const AnyEstimator& estimator,
+                          const Channels<N>& sigmaT, PixelStream random, RenderCounters& counters) const {
   if (PixelSample* const pixel = random.sample();
       pixel != nullptr && samplingPattern_ != PatternKind::Independent && pixel->index < pixel->count &&
       pixel->count <= std::numeric_limits<std::uint32_t>::max()) {
@@ -305,16 +324,16 @@ Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const
     const SamplingPattern pattern(samplingPattern_, static_cast<std::uint32_t>(pixel->count),
                                   hashCombine(pixel->key, pixel->estimates++));
     SampleStream stream(random.rng(), pattern, static_cast<std::uint32_t>(pixel->index));
-    return estimate(line, segment, sigmaT, stream, counters);
+    return estimate(line, segment, estimator, sigmaT, stream, counters);
   }
   SampleStream stream(random.rng());
-  return estimate(line, segment, sigmaT, stream, counters);
+  return estimate(line, segment, estimator, sigmaT, stream, counters);
 }
 
 template <std::size_t N>
-Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT,
-                          SampleStream& stream, RenderCounters& counters) const {
-  const Estimate<N> result = kernel_->estimate(line, sigmaT, estimator_, stream);
+Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const AnyEstimator& estimator,
+                          const Channels<N>& sigmaT, SampleStream& stream, RenderCounters& counters) const {
+  const Estimate<N> result = kernel_->estimate(line, sigmaT, estimator, stream);
   count(line, segment, result.tally, counters);
   return toRgb(result.value);
 }

@@ -70,6 +70,15 @@ class FieldMedium final : public Medium {
     return share < 1 ? sigmaT_ * static_cast<float>(share) : sigmaT_;
   }
 
+  /// Null: the exponential one.
+  const AnyLaw* lawOfFlights() const { return isExponential_ ? nullptr : &law_; }
+
+  /// Of light that the end of a segment emits, what is seen at its start, under another law g than the
+  /// exponential. As light that is scattered comes from where flights collide, so does that which is emitted:
+  /// it is dimmed by -g'(F), where a collision is extinction times that, and not by g(F). So a body emits
+  /// what it absorbs, and a furnace of one temperature is dark or bright everywhere alike.
+  Rgb collisionShare(const Segment& segment, PixelStream random, RenderCounters& counters) const;
+
   /// The emission that free flights find. What a collision stands for is emission over extinction, of which
   /// the density is no part.
   void flyToEmission(EmissionSamples& samples, const ClippedLine& emissionLine, const Segment& segment,
@@ -83,11 +92,11 @@ class FieldMedium final : public Medium {
   Rgb dimmedOrOpaque(const ClippedLine& line, const Segment& segment, PixelStream random,
                      RenderCounters& counters) const;
   template <std::size_t N>
-  Rgb estimate(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT, PixelStream random,
-               RenderCounters& counters) const;
+  Rgb estimate(const ClippedLine& line, const Segment& segment, const AnyEstimator& estimator,
+               const Channels<N>& sigmaT, PixelStream random, RenderCounters& counters) const;
   template <std::size_t N>
-  Rgb estimate(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT,
-               SampleStream& stream, RenderCounters& counters) const;
+  Rgb estimate(const ClippedLine& line, const Segment& segment, const AnyEstimator& estimator,
+               const Channels<N>& sigmaT, SampleStream& stream, RenderCounters& counters) const;
 
   /// Collisions weigh extinction, not scattering.
   template <std::size_t N>
@@ -110,7 +119,9 @@ class FieldMedium final : public Medium {
   AnyEstimator estimator_;
   AnyLaw law_;
   bool isExponential_;
+  CollisionEstimator collisions_;  ///< for emission under another law
   AnyFlight flights_;
+  bool fliesUnderLaw_;
   PatternKind samplingPattern_;
   std::unique_ptr<PhaseFunction> phase_;
   FieldEmission emission_;

@@ -36,6 +36,8 @@ AnyEstimator estimatorOfAnyLaw(bool hasPieces) {
   return hasPieces ? AnyEstimator(RegularTracking{}) : AnyEstimator(DebiasedRayMarching{});
 }
 
-AnyFlight flightOfAnyLaw() { return RegularFlight{}; }
+AnyFlight flightOfAnyLaw(bool hasPieces) {
+  return hasPieces ? AnyFlight(RegularFlight{}) : AnyFlight(DebiasedFlight{});
+}
 
 }  // namespace pbrtmedia

@@ -27,7 +27,7 @@ AnyEstimator ratioTrackingWithRoulette();
 
 /// For laws beside the exponential one, by whether the density has cubic pieces: exact where it has.
 AnyEstimator estimatorOfAnyLaw(bool hasPieces);
-/// For such laws where there are pieces.
-AnyFlight flightOfAnyLaw();
+/// Unbiased flights for laws that the default ones do not serve.
+AnyFlight flightOfAnyLaw(bool hasPieces);
 
 }  // namespace pbrtmedia

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "transmittance/any_estimator.h"
 
+#include <cmath>
+
 #include "transmittance/estimator_list.h"
 
 namespace pbrtmedia {
@@ -62,6 +64,29 @@ bool setLaw(AnyEstimator& estimator, const AnyLaw& law) {
       changed);
   if (isServed) estimator = holding(std::move(changed));
   return isServed;
+}
+
+CollisionEstimator collisionEstimatorOf(const AnyEstimator& estimator) {
+  EstimatorVariant changed = estimator.held().variant;
+  const double depthScale = std::visit(
+      [](auto& held) -> double {
+        if constexpr (requires { held.curve; }) {
+          held.curve = LawCurve::Collisions;
+          if constexpr (requires { held.rate; }) {
+            // The collisions of this law end in a jump, whose corrections fall as slowly as those of the cost
+            // may rise at most.
+            if (std::holds_alternative<LinearLaw>(held.law)) held.rate = TelescopingLevels::kLeastRate;
+          }
+        } else if constexpr (requires { held.law.correlation; }) {
+          // -g'(F) = (1 + C^2 F)^(-1/C^2 - 1) is pink noise again, of C^2 / (1 + C^2) at (1 + C^2) F.
+          const double c = held.law.correlation;
+          held.law.correlation = c / std::sqrt(1 + c * c);
+          return 1 + c * c;
+        }
+        return 1;
+      },
+      changed);
+  return {holding(std::move(changed)), depthScale};
 }
 
 }  // namespace pbrtmedia

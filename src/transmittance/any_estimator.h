@@ -48,4 +48,12 @@ AnyLaw lawOf(const AnyEstimator& estimator);
 /// Puts the estimator under a law; false, changing nothing, when it cannot serve that one.
 bool setLaw(AnyEstimator& estimator, const AnyLaw& law);
 
+/// What estimates where light collides instead of what gets through.
+struct CollisionEstimator {
+  AnyEstimator estimator;
+  double depthScale = 1;  ///< of the extinction it has to be asked with
+};
+/// Its estimates of -g'(F) / -g'(0), g the law of `estimator`, are biased as those of g are. In vacuum 1.
+CollisionEstimator collisionEstimatorOf(const AnyEstimator& estimator);
+
 }  // namespace pbrtmedia

@@ -7,6 +7,7 @@ namespace pbrtmedia {
 
 static_assert(std::is_same_v<std::variant_alternative_t<0, AnyLaw>, ExponentialLaw>);
 static_assert(std::is_same_v<std::variant_alternative_t<1, AnyLaw>, PinkNoiseLaw>);
+static_assert(std::is_same_v<std::variant_alternative_t<3, AnyLaw>, LinearLaw>);
 
 std::string_view nameOf(const AnyLaw& law) { return alternativeName(law); }
 std::optional<AnyLaw> findLaw(std::string_view name) { return findAlternative<AnyLaw>(name); }

@@ -38,6 +38,20 @@ inline double depthReachedOf(const AnyLaw& law, double u) {
   return std::visit([&](const auto& g) { return g.depthReached(u); }, law);
 }
 
+/// What estimators evaluate of a law: g itself, or the collisions -g'(F) as a share of those at F = 0.
+enum class LawCurve { Transmittance, Collisions };
+
+/// -g'(0): collisions per optical depth before anything is in the way.
+inline double collisionsAtStart(const AnyLaw& law) { return collisionDensityOf(law, 0); }
+
+/// The curve at F; it is 1 at 0. F below 0 as in transmittanceOf(). A law without collisions: 0 for them.
+inline double valueOf(LawCurve curve, const AnyLaw& law, double depth) {
+  if (curve == LawCurve::Transmittance) [[likely]]
+    return transmittanceOf(law, depth);
+  const double atStart = collisionsAtStart(law);
+  return atStart > 0 ? collisionDensityOf(law, std::max(depth, 0.0)) / atStart : 0;
+}
+
 std::string_view nameOf(const AnyLaw& law);
 std::optional<AnyLaw> findLaw(std::string_view name);
 std::vector<std::string_view> lawNames();
@@ -50,6 +64,8 @@ class LawSet {
   static constexpr LawSet all() { return LawSet((1u << std::variant_size_v<AnyLaw>)-1); }
   static constexpr LawSet exponential() { return LawSet(1u); }
   static constexpr LawSet pinkNoise() { return LawSet(2u); }
+  /// Those that are means of exponential laws over a random factor on the depth (MixedPoissonProcess).
+  static constexpr LawSet mixtures() { return LawSet(all().bits_ & ~8u); }
 
   constexpr bool has(const AnyLaw& law) const { return (bits_ >> law.index() & 1u) != 0; }
   constexpr bool operator==(const LawSet&) const = default;

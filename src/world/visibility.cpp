@@ -56,14 +56,16 @@ class PassedStretches {
   Rgb through_{1.0f};
 };
 
-/// Calls emit(sample, seen from the stretch's start) for what `medium` emits on a stretch.
+/// Calls emit(sample, seen from the stretch's start) for what `medium` emits on a stretch from `from` on.
 template <class Emit>
-void sampleEmissionOf(const PlacedMedium& medium, const MediaStretch& stretch, PixelStream random,
-                      RenderCounters& counters, const Emit& emit) {
+void sampleEmissionOf(const PlacedMedium& medium, const MediaStretch& stretch, double from,
+                      PixelStream random, RenderCounters& counters, const Emit& emit) {
   for (std::size_t i = 0; i < stretch.state().activeCount(); ++i) {
     if (!(stretch.state().active(i) == medium)) continue;
     const EmissionSamples found = stretch.sampleEmission(i, random, counters);
-    for (const EmissionSamples::Sample& s : found) emit(s);
+    for (const EmissionSamples::Sample& s : found) {
+      if (s.t >= from) emit(s);
+    }
   }
 }
 
@@ -75,7 +77,8 @@ bool isActive(const PlacedMedium& medium, const MediumState& state) {
 }
 
 /// Walks along the shadow ray. Calls passes(stretch) for each of which something is passed, and
-/// emits(stretch, what is let through to its start) where the medium is present inside the span.
+/// emits(stretch, where on it the span begins, what is let through to its start) where the medium is present
+/// inside the span.
 template <class Passes, class Emits>
 void walkToEmission(const MediaWalk::Context& context, const ShadowRay& shadow, const PlacedMedium& medium,
                     Span<double> span, MediumState& state, PixelStream random, const Passes& passes,
@@ -92,11 +95,13 @@ void walkToEmission(const MediaWalk::Context& context, const ShadowRay& shadow, 
     double t = walk.t();
     const double from = std::max(t, span.tMin), to = std::min(walk.tEnd(), span.tMax);
     if (from < to && isActive(medium, state)) {
-      pass(t, from);
+      // Where what two parts let through is not what the whole does, the stretch must not be cut.
+      const double start = state.isExponential() ? from : t;
+      pass(t, start);
       const Rgb through = passed.transmittance(random, context.counters);
       if (through.isBlack()) return;
-      emits(MediaStretch(state, ray, from, to), through);
-      t = from;
+      emits(MediaStretch(state, ray, start, to), from, through);
+      t = start;
     }
     pass(t, walk.tEnd());
     const std::optional<SceneHit> hit = walk.next();
@@ -112,9 +117,9 @@ Rgb shadowEmission(const MediaWalk::Context& context, const ShadowRay& shadow, c
   Rgb sum;
   walkToEmission(
       context, shadow, medium, span, state, random, [](const MediaStretch&) {},
-      [&](const MediaStretch& stretch, Rgb through) {
+      [&](const MediaStretch& stretch, double from, Rgb through) {
         Rgb emitted;
-        sampleEmissionOf(medium, stretch, random, context.counters,
+        sampleEmissionOf(medium, stretch, from, random, context.counters,
                          [&](const EmissionSamples::Sample& s) { emitted += s.radiance; });
         sum += through * emitted;
       });
@@ -128,10 +133,11 @@ void visitShadowEmission(const MediaWalk::Context& context, const ShadowRay& sha
   walkToEmission(
       context, shadow, medium, span, state, random,
       [&](const MediaStretch& passed) { depth += passed.control().depth; },
-      [&](const MediaStretch& stretch, Rgb through) {
-        sampleEmissionOf(medium, stretch, random, context.counters, [&](const EmissionSamples::Sample& s) {
-          visit({s.t, through * s.radiance, depth + stretch.upTo(s.t).control().depth});
-        });
+      [&](const MediaStretch& stretch, double from, Rgb through) {
+        sampleEmissionOf(medium, stretch, from, random, context.counters,
+                         [&](const EmissionSamples::Sample& s) {
+                           visit({s.t, through * s.radiance, depth + stretch.upTo(s.t).control().depth});
+                         });
       });
 }
 

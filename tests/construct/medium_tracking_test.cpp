@@ -65,26 +65,29 @@ TEST(ConstructFreeFlight, ParametersHaveTheirEffectAndMistakesAreTold) {
   EXPECT_NE(media(with(marched)), media(with(marched + "\"integer flightsteps\" 3")));
   EXPECT_NE(media(with(kGrid)), media(with(kGrid + "\"string freeflight\" \"regular\"")));
   EXPECT_EQ(media(with(kGrid)), media(with(kGrid + "\"string freeflight\" \"auto\"")));
-  // The one that flies under any law.
-  const std::string law = kGrid + "\"string law\" \"pinknoise\" ";
-  EXPECT_EQ(media(with(law)), media(with(law + "\"string freeflight\" \"regular\"")));
-  // Bounds that cut across voxels leave the choice to the scene, without talk of what it never named.
-  const Attempt learned = with(law + "\"string bounds\" \"progressive\"");
-  EXPECT_FALSE(learned.made);
-  EXPECT_NE(learned.messages().find("is served by ray-marching, regular"), std::string::npos);
-  EXPECT_EQ(learned.messages().find("goes from voxel to voxel"), std::string::npos) << learned.messages();
-  EXPECT_TRUE(with(law + "\"string bounds\" \"progressive\" \"string freeflight\" \"ray-marching\"").made);
+  // The default serves the laws that are mixtures; for others the first that is unbiased.
+  const std::string pink = kGrid + "\"string law\" \"pinknoise\" ",
+                    linear = kGrid + "\"string law\" \"linear\" ";
+  const std::string unproven = "\"string bounds\" \"progressive\" ",
+                    debiased = "\"string freeflight\" \"debiased-ray-marching\" ";
+  EXPECT_EQ(media(with(pink)), media(with(pink + "\"string freeflight\" \"weighted-delta\"")));
+  EXPECT_EQ(media(with(linear)), media(with(linear + "\"string freeflight\" \"regular\"")));
+  // Bounds that cut across voxels, and densities without.
+  EXPECT_EQ(media(with(linear + unproven)), media(with(linear + unproven + debiased)));
+  EXPECT_TRUE(with(linear + unproven).isSilent());
+  EXPECT_TRUE(with(kPerlin + "\"string law\" \"davis\"").isSilent());
+  EXPECT_EQ(media(with(kPerlin + "\"string law\" \"linear\"")),
+            media(with(kPerlin + "\"string law\" \"linear\"" + debiased)));
   expectMistakes(
       {{kGrid + "\"string freeflight\" \"detla\"",
         "unknown free-flight sampler \"detla\"; did you mean \"delta\"?", ""},
        {kGrid + "\"string freeflight\" \"auot\"", "did you mean \"auto\"?", ""},
-       {kGrid + "\"string freeflight\" \"delta\" \"string law\" \"pinknoise\"",
-        "the free flights of \"delta\" follow exponential; for a medium that scatters, the law \"pinknoise\" "
-        "is "
-        "served by ray-marching, regular",
+       {kGrid + "\"string freeflight\" \"delta\" \"string law\" \"linear\"",
+        "the free flights of \"delta\" follow exponential, pinknoise, davis, mixture; for a medium that "
+        "scatters, the law \"linear\" is served by debiased-ray-marching, ray-marching, regular",
         ""},
-       {kPerlin + "\"string law\" \"pinknoise\"",
-        "the free flights of \"weighted-delta\" follow exponential; for a medium that scatters", ""},
+       {kPerlin + "\"string law\" \"linear\" \"string freeflight\" \"delta\"",
+        "is served by debiased-ray-marching, ray-marching", ""},
        {single + "\"string model\" \"adaptiv\"", "\"model\": found \"adaptiv\", expected one of", ""},
        {kGrid + "\"string freeflight\" \"delta\" \"float boundscale\" 2", "unknown parameter \"boundscale\"",
         "", kTolerated}},

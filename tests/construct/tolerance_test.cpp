@@ -471,7 +471,7 @@ TEST(Tolerance, EmissionThatCannotBeSeenIsTold) {
   EXPECT_TRUE(made(fog + "\"rgb Le\" [ 1 1 1 ]").isSilent());
   EXPECT_TRUE(
       made(grid + "\"rgb sigma_s\" [ 0 0 0 ] \"float temperature\" [ 900 2000 ] \"string law\" \"davis\"")
-          .failsWith("follows the exponential law only"));
+          .isSilent());
 }
 
 }  // namespace

@@ -250,5 +250,40 @@ TEST(EmissionBeyondLightSamples, CountsFullyBehindMirrorsAndGlass) {
   EXPECT_TRUE(through.sees()) << through;
 }
 
+const std::string kDavis = "\"string law\" \"davis\" \"float correlation\" 1.5 \"float beta\" .5 ",
+                  kLinear = "\"string law\" \"linear\" \"float extent\" 3 ",
+                  kMixture = "\"string law\" \"mixture\" \"float thin\" .1 \"float thick\" 3 ";
+
+TEST(EmissionUnderLaws, HotFurnaceOfProceduralDensityIsWhite) {
+  // White only if flights collide where emission is found, whatever the density and its bounds.
+  for (const std::string& law : {kDavis, kMixture, kLinear}) {
+    for (const std::string& bounds : {std::string(), constantBound(3)}) {
+      const std::string scene = pencil(2, 1, volpath(100000), kAlongZ, .5) + "WorldBegin\n" +
+                                kWhiteEnvironment + medium(kPerlin + law + bounds, 1, 2, 1) + kCube +
+                                "Material \"matte\" \"rgb Kd\" [ 1 1 1 ] Shape \"sphere\" \"float radius\" "
+                                ".4\nWorldEnd\n";
+      const ZTest test = zTest(samplesOf(scene, 8000), 1, 1);
+      EXPECT_LT(std::abs(test.z()), kMaxAbsZ) << law << bounds << ": " << test;
+      EXPECT_LT(test.standardError, .03) << law << bounds << ": " << test;
+    }
+  }
+}
+
+TEST(EmissionUnderLaws, IntegratorsAgree) {
+  // By light samples and distances, and by distances alone.
+  for (const std::string& law : {kDavis, kLinear}) {
+    const auto floor = [&](const std::string& integrator, std::uint64_t seed) {
+      return samplesOf(pencil(1, 1, integrator + " \"integer maxdepth\" 3", kAtFloor) + "WorldBegin\n" +
+                           medium(kPerlin + law, 2, 2, 5) + kFloor + kCube + "WorldEnd\n",
+                       1 << 15, seed);
+    };
+    const RunningStats a = floor("\"volpath\"", 1), b = floor("\"bdpt\"", 2);
+    const double error = std::hypot(a.standardError(), b.standardError());
+    EXPECT_LT(std::abs(a.mean() - b.mean()), kMaxAbsZ * error) << law << a.mean() << " and " << b.mean();
+    EXPECT_LT(error, .03 * a.mean());
+    EXPECT_GT(a.mean(), 0);
+  }
+}
+
 }  // namespace
 }  // namespace pbrtmedia::test

@@ -249,7 +249,7 @@ TEST(Medialab, ListsEverythingThereIs) {
   EXPECT_EQ(list["patterns"].size(), 5u);
   const ProcessResult text = lab("list");
   EXPECT_EQ(text.status, 0);
-  for (const char* kind : {"estimators", "reciprocals", "functions", "laws"}) {
+  for (const char* kind : {"estimators", "reciprocals", "flights", "functions", "laws"}) {
     for (const json& one : list[kind]) expectIn(text, "  " + one["name"].get<std::string>());
   }
   EXPECT_EQ(json::parse(lab("list laws --format json").output).size(), 1u);
@@ -265,6 +265,10 @@ TEST(Medialab, ThePageOfEstimatorsKnowsAllOfThem) {
       const std::string heading = "\n### `" + one["name"].get<std::string>() + "`\n";
       EXPECT_NE(page.str().find(heading), std::string::npos) << heading << "run medialab docs";
     }
+  }
+  for (const json& one : list["flights"]) {
+    const std::string row = "\n| `" + one["name"].get<std::string>() + "` | " + one["bias"].get<std::string>();
+    EXPECT_NE(page.str().find(row), std::string::npos) << row << ": run medialab docs";
   }
 }
 

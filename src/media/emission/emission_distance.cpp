@@ -29,6 +29,15 @@ double attenuatedDistance(double sigma, double length, double u) {
   return std::clamp(x, 0.0, length);
 }
 
+/// How much a law falls over an interval of optical depth; 0 where that is so little that its digits are
+/// lost, but -g' is then as good as constant.
+double fallOver(const AnyLaw& law, double depth, double length) {
+  constexpr double kLeast = 1e-9;
+  const double before = transmittanceOf(law, depth),
+               difference = before - transmittanceOf(law, depth + length);
+  return difference > kLeast * before ? difference : 0;
+}
+
 double sum(const EmissionSampler::Channels& c) { return c[0] + c[1] + c[2]; }
 
 }  // namespace
@@ -37,14 +46,20 @@ void EmissionSampler::add(double sEnter, double sExit, const Channels& emission,
                           double tag) {
   if (!(sExit > sEnter)) return;
   const double length = sExit - sEnter;
-  const Channels throughBefore = through_, absorbed = absorbedOn(sigmaT, length);
+  const Channels throughBefore = through_, depthBefore = depth_;
   Channels weights{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    // The integral of exp(-sigma x) over the interval.
-    if (emission[c] > 0) {
-      weights[c] = emission[c] * through_[c] * (sigmaT[c] > 0 ? absorbed[c] / sigmaT[c] : length);
+  if (law_ != nullptr) {
+    weights = collidedUnderLaw(sigmaT, length);
+    for (std::size_t c = 0; c < 3; ++c) weights[c] = emission[c] > 0 ? emission[c] * weights[c] : 0;
+  } else {
+    const Channels absorbed = absorbedOn(sigmaT, length);
+    for (std::size_t c = 0; c < 3; ++c) {
+      // The integral of exp(-sigma x) over the interval.
+      if (emission[c] > 0) {
+        weights[c] = emission[c] * through_[c] * (sigmaT[c] > 0 ? absorbed[c] / sigmaT[c] : length);
+      }
+      through_[c] *= 1 - absorbed[c];
     }
-    through_[c] *= 1 - absorbed[c];
   }
   const double attenuated = sum(weights), emitted = share_ > 0 ? sum(emission) * length : 0;
   const double weight = defensive_ ? emitted : attenuated, before = defensive_ ? totalEmitted_ : total_;
@@ -60,13 +75,40 @@ void EmissionSampler::add(double sEnter, double sExit, const Channels& emission,
   emission_ = emission;
   sigmaT_ = sigmaT;
   throughBefore_ = throughBefore;
+  depthBefore_ = depthBefore;
   weight_ = weights;
+}
+
+EmissionSampler::Channels EmissionSampler::collidedUnderLaw(const Channels& sigmaT, double length) {
+  Channels collided{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (c > 0 && sigmaT[c] == sigmaT[c - 1] && depth_[c] == depth_[c - 1]) {
+      collided[c] = collided[c - 1];
+    } else {
+      const double difference = fallOver(*law_, depth_[c], sigmaT[c] * length);
+      collided[c] = difference > 0 ? difference / sigmaT[c]
+                                   : collisionDensityOf(*law_, depth_[c] + sigmaT[c] * length / 2) * length;
+    }
+  }
+  for (std::size_t c = 0; c < 3; ++c) depth_[c] += sigmaT[c] * length;
+  return collided;
+}
+
+double EmissionSampler::offsetUnderLaw(std::size_t channel, double length) {
+  const double depth = depthBefore_[channel], sigma = sigmaT_[channel], u = rng_.uniformDouble();
+  const double difference = fallOver(*law_, depth, sigma * length);
+  if (!(difference > 0)) return u * length;
+  const double reached = depthReachedOf(*law_, transmittanceOf(*law_, depth) - u * difference);
+  return std::clamp((reached - depth) / sigma, 0.0, length);
 }
 
 double EmissionSampler::densityAt(double offset) const {
   double attenuated = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    if (emission_[c] > 0) attenuated += emission_[c] * throughBefore_[c] * std::exp(-sigmaT_[c] * offset);
+    if (!(emission_[c] > 0)) continue;
+    attenuated +=
+        emission_[c] * (law_ != nullptr ? collisionDensityOf(*law_, depthBefore_[c] + sigmaT_[c] * offset)
+                                        : throughBefore_[c] * std::exp(-sigmaT_[c] * offset));
   }
   double density = total_ > 0 ? (1 - share_) * attenuated / total_ : 0;
   if (share_ > 0 && totalEmitted_ > 0) density += share_ * sum(emission_) / totalEmitted_;
@@ -84,7 +126,8 @@ std::optional<EmissionSampler::Distance> EmissionSampler::distance() {
     std::size_t channel = 0;
     while (channel < 2 && u >= weight_[channel]) u -= weight_[channel++];
     while (!(weight_[channel] > 0)) --channel;  // rounding of the sum past the last that weighs anything
-    offset = attenuatedDistance(sigmaT_[channel], length, rng_.uniformDouble());
+    offset = law_ != nullptr ? offsetUnderLaw(channel, length)
+                             : attenuatedDistance(sigmaT_[channel], length, rng_.uniformDouble());
   }
   const double pdf = densityAt(offset);
   if (!(pdf > 0) || !std::isfinite(pdf)) return std::nullopt;

@@ -12,6 +12,7 @@
 
 #include "base/parallel.h"
 #include "base/writable.h"
+#include "freeflight/any_flight.h"
 #include "tools/medialab/estimate.h"
 
 namespace pbrtmedia {
@@ -132,6 +133,40 @@ the estimate of F that one factor of a series is made of. Nothing of these estim
         << t.domain << " | " << (t.finiteVariance ? "yes" : "in part") << " | " << t.cost << " |\n";
   }
   for (const std::string_view name : reciprocalNames()) printReciprocal(out, name);
+}
+
+const char* weightsOf(const FlightTraits& t) {
+  if (t.unitWeights) return "1";
+  return t.mayBeNegative ? "any sign" : "positive";
+}
+
+/// Free flights, which the lab does not measure.
+void printFlights(std::ostream& out) {
+  out << R"(
+## Free flights
+
+`"string freeflight"` of a medium names one of these; its parameters stand in the same entry. *Weights* are those in grey media
+under a bounding control. The laws that are mixtures of exponential ones are served by null collisions, exactly: the tentative collisions are
+those of a medium whose extinction has a random factor.
+
+| flight | bias | control | weights | laws | how |
+| --- | --- | --- | --- | --- | --- |
+)";
+  for (const std::string_view name : flightNames()) {
+    const FlightTraits t = traitsOf(*findFlight(name));
+    out << "| `" << name << "` | " << nameOf(t.bias) << " | " << nameOf(t.control) << " | " << weightsOf(t)
+        << " | " << (t.laws == LawSet::all() ? "all" : joined(t.laws.names())) << " | " << t.summary << ". "
+        << sentence(t.source) << ' ' << (t.biasNote.empty() ? "" : sentence(t.biasNote) + ' ') << "Use when "
+        << t.useWhen << ". |\n";
+  }
+  out << "\n| flight | parameter | type | default | allowed | meaning |\n| --- | --- | --- | --- | --- | --- "
+         "|\n";
+  for (const std::string_view name : flightNames()) {
+    for (const ParameterDescription& p : parametersOf(*findFlight(name))) {
+      out << "| `" << name << "` | `" << p.name << "` | " << p.type << " | " << p.value << " | " << p.allowed
+          << " | " << p.help << " |\n";
+    }
+  }
 }
 
 /// Three significant digits.
@@ -332,6 +367,7 @@ std::string docsPage(const DocsOptions& o, const StopSignal& stop) {
   out << "\n## Estimators\n";
   for (const std::string_view name : estimatorNames()) printEstimator(out, name);
   printLaws(out);
+  printFlights(out);
   printReciprocals(out);
   const LabTable table = estimateTable(measured(o), stop);
   const LabTable reciprocals = estimateTable(measuredReciprocals(o), stop);

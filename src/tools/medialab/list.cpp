@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fields/canonical_function.h"
+#include "freeflight/any_flight.h"
 #include "reciprocal/any_reciprocal.h"
 #include "tools/medialab/estimator.h"
 #include "transmittance/sampling_pattern.h"
@@ -62,6 +63,22 @@ Json reciprocalJson(std::string_view name) {
           {"parameters", parametersJson(parametersOf(estimator))}};
 }
 
+Json flightJson(std::string_view name) {
+  const AnyFlight flight = *findFlight(name);
+  const FlightTraits t = traitsOf(flight);
+  return {{"name", name},
+          {"summary", t.summary},
+          {"source", t.source},
+          {"useWhen", t.useWhen},
+          {"bias", nameOf(t.bias)},
+          {"biasNote", t.biasNote},
+          {"control", nameOf(t.control)},
+          {"unitWeights", t.unitWeights},
+          {"mayBeNegative", t.mayBeNegative},
+          {"laws", t.laws.names()},
+          {"parameters", parametersJson(parametersOf(flight))}};
+}
+
 Json functionJson(std::string_view name) {
   const CanonicalFunction f = *findCanonicalFunction(name);
   const CanonicalFunction::Range range = f.range();
@@ -93,6 +110,10 @@ Json listJson(const std::string& what) {
   if (wants("reciprocals")) {
     list["reciprocals"] = Json::array();
     for (const std::string_view name : reciprocalNames()) list["reciprocals"].push_back(reciprocalJson(name));
+  }
+  if (wants("flights")) {
+    list["flights"] = Json::array();
+    for (const std::string_view name : flightNames()) list["flights"].push_back(flightJson(name));
   }
   if (wants("functions")) {
     list["functions"] = Json::array();
@@ -146,6 +167,22 @@ void printReciprocal(const Json& e) {
   printParameters(e["parameters"]);
 }
 
+void printFlight(const Json& e) {
+  std::cout << "  " << text(e["name"]) << '\n'
+            << "      " << text(e["summary"]) << "; " << text(e["source"]) << '\n'
+            << "      use when " << text(e["useWhen"]) << '\n'
+            << "      " << text(e["bias"]);
+  if (!text(e["biasNote"]).empty()) std::cout << " (" << text(e["biasNote"]) << ')';
+  std::cout << "; control: " << text(e["control"]) << "; weights "
+            << (e["unitWeights"].get<bool>()     ? "1"
+                : e["mayBeNegative"].get<bool>() ? "of any sign"
+                                                 : "positive")
+            << "; laws:";
+  for (const Json& law : e["laws"]) std::cout << ' ' << text(law);
+  std::cout << '\n';
+  printParameters(e["parameters"]);
+}
+
 void printList(const Json& list) {
   if (list.contains("estimators")) {
     std::cout << "estimators\n";
@@ -154,6 +191,10 @@ void printList(const Json& list) {
   if (list.contains("reciprocals")) {
     std::cout << "reciprocals\n";
     for (const Json& e : list["reciprocals"]) printReciprocal(e);
+  }
+  if (list.contains("flights")) {
+    std::cout << "free flights\n";
+    for (const Json& e : list["flights"]) printFlight(e);
   }
   if (list.contains("functions")) {
     std::cout << "functions\n";

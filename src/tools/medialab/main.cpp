@@ -24,8 +24,8 @@ namespace {
 void addList(CLI::App& app, ListOptions& o, Run& run) {
   CLI::App* c =
       app.add_subcommand("list", "List estimators with traits and parameters, functions, laws, patterns");
-  c->add_option("what", o.what, "estimators, reciprocals, functions, laws, patterns or all (all)")
-      ->transform(oneOf({"estimators", "reciprocals", "functions", "laws", "patterns", "all"}));
+  c->add_option("what", o.what, "estimators, reciprocals, flights, functions, laws, patterns or all (all)")
+      ->transform(oneOf({"estimators", "reciprocals", "flights", "functions", "laws", "patterns", "all"}));
   const std::map<std::string, bool> formats{{"text", false}, {"json", true}};
   c->add_option("--format", o.json, "text (default) or json")->transform(oneOf(formats))->type_name("NAME");
   c->callback([&o, &run] { run = [&o] { return runList(o); }; });

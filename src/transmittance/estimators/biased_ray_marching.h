@@ -30,6 +30,8 @@ struct BiasedRayMarching {
   Warp warp = Warp::Auto;
   std::uint64_t maxLookups = 0;
   AnyLaw law = {};
+  /// No parameter: collisionEstimatorOf().
+  LawCurve curve = LawCurve::Transmittance;
 
   static constexpr auto parameters() {
     using Self = BiasedRayMarching;
@@ -60,7 +62,7 @@ struct BiasedRayMarching {
         line, sigmaT, stream, teethUnder, [&](auto& combs) {
           const double column = combs.integral();
           Channels<N> value;
-          for (std::size_t c = 0; c < N; ++c) value[c] = transmittanceOf(law, sigmaT[c] * column);
+          for (std::size_t c = 0; c < N; ++c) value[c] = valueOf(curve, law, sigmaT[c] * column);
           return value;
         });
   }

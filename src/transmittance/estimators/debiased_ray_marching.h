@@ -36,9 +36,11 @@ struct DebiasedRayMarching {
   static constexpr std::string_view kName = "debiased-ray-marching";
 
   AnyLaw law = {};
-  std::uint64_t n = 1;                     ///< look-ups at level 0
-  std::uint64_t levels = 2;                ///< k, the level of the coarse march
-  double rate = TelescopingLevels::kRate;  ///< r
+  /// No parameter: collisionEstimatorOf().
+  LawCurve curve = LawCurve::Transmittance;
+  std::uint64_t n = 1;                       ///< look-ups at level 0
+  std::uint64_t levels = 2;                  ///< k, the level of the coarse march
+  double rate = TelescopingLevels::kRate;    ///< r
   Comb comb = Comb::Equidistant;
   bool reuse = true;  ///< the coarse march is part of that of the correction
   std::uint64_t maxLookups = 0;
@@ -70,7 +72,7 @@ struct DebiasedRayMarching {
     const TelescopedMarch march{n, levels, rate, comb, reuse, maxLookups};
     march.single(line, stream, estimate.tally, [&](double column, double factor) {
       for (std::size_t c = 0; c < N; ++c) {
-        estimate.value[c] += factor * transmittanceOf(law, sigmaT[c] * column);
+        estimate.value[c] += factor * valueOf(curve, law, sigmaT[c] * column);
       }
     });
     return estimate;

@@ -35,8 +35,10 @@ struct PrefixDebiasedRayMarching {
   static constexpr std::string_view kName = "prefix-debiased-ray-marching";
 
   AnyLaw law = {};
-  std::uint64_t n = 1;       ///< look-ups at level 0
-  std::uint64_t levels = 2;  ///< k, the level of the coarse march
+  /// No parameter: collisionEstimatorOf().
+  LawCurve curve = LawCurve::Transmittance;
+  std::uint64_t n = 1;                       ///< look-ups at level 0
+  std::uint64_t levels = 2;                  ///< k, the level of the coarse march
   double rate = TelescopingLevels::kRate;
   Comb comb = Comb::Equidistant;
   bool reuse = true;  ///< the coarse march is part of that of the corrections
@@ -69,7 +71,7 @@ struct PrefixDebiasedRayMarching {
     const TelescopedMarch march{n, levels, rate, comb, reuse, maxLookups};
     march.prefix(line, stream, estimate.tally, [&](double column, double factor) {
       for (std::size_t c = 0; c < N; ++c) {
-        estimate.value[c] += factor * transmittanceOf(law, sigmaT[c] * column);
+        estimate.value[c] += factor * valueOf(curve, law, sigmaT[c] * column);
       }
     });
     return estimate;

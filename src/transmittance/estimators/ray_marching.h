@@ -37,6 +37,8 @@ struct RayMarching {
   StepOffset offset = StepOffset::Random;
   std::uint64_t maxLookups = 0;
   AnyLaw law = {};
+  /// No parameter: collisionEstimatorOf().
+  LawCurve curve = LawCurve::Transmittance;
 
   static constexpr auto parameters() {
     using Self = RayMarching;
@@ -69,7 +71,7 @@ struct RayMarching {
         line, sigmaT, stream, teethUnder, [&](auto& combs) {
           const double column = combs.integralFrom(offset == StepOffset::Midpoint ? 0.5 : stream.uniform());
           Channels<N> value;
-          for (std::size_t c = 0; c < N; ++c) value[c] = transmittanceOf(law, sigmaT[c] * column);
+          for (std::size_t c = 0; c < N; ++c) value[c] = valueOf(curve, law, sigmaT[c] * column);
           return value;
         });
   }

@@ -26,6 +26,8 @@ struct RegularTracking {
   static constexpr double kOpaque = 746;
 
   AnyLaw law;
+  /// No parameter: collisionEstimatorOf().
+  LawCurve curve = LawCurve::Transmittance;
 
   EstimatorTraits traits() const {
     return {.summary = "the law at the exact optical depth, integrated piece by piece",
@@ -45,7 +47,7 @@ struct RegularTracking {
                                         : std::numeric_limits<double>::infinity();
     const double column = densityIntegral(line, enough, estimate.tally);
     // 0 * inf never forms: the integral of a finite density over a finite line is finite.
-    for (std::size_t c = 0; c < N; ++c) estimate.value[c] = transmittanceOf(law, sigmaT[c] * column);
+    for (std::size_t c = 0; c < N; ++c) estimate.value[c] = valueOf(curve, law, sigmaT[c] * column);
     return estimate;
   }
 

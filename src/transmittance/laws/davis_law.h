@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <tuple>
 
 #include "base/parameters.h"
-#include "transmittance/parts/falling_inverse.h"
+#include "transmittance/laws/pink_noise_law.h"
 
 namespace pbrtmedia {
 
@@ -44,7 +45,34 @@ struct DavisLaw {
     if (std::isinf(y)) return 0;
     return g * ((1 - beta) * (y > 0 ? std::log1p(y) / y : 1) + beta / (1 + y));
   }
-  double depthReached(double u) const { return invertFalling(*this, u); }
+  double depthReached(double u) const { return depthOfExponent(-std::log(u)); }
+
+  /// The F at which -log g reaches `exponent` >= 0; infinite where no double does. Relative error some
+  /// roundings of log F. Newton's method for log(-log g) over log F, which is concave with slopes in [1 -
+  /// beta, 1]: from the left, where -log g <= F puts the start, it comes near without ever passing.
+  double depthOfExponent(double exponent) const {
+    constexpr double kMostLog = 709.7;  // of a double
+    if (!(exponent > 0)) return 0;
+    if (beta == 1) return PinkNoiseLaw{correlation}.depthOfExponent(exponent);
+    const double logK = (1 + beta) * std::log(correlation), target = std::log(exponent);
+    double z = target;
+    for (int step = 0; step < kMostSteps; ++step) {
+      const double y = std::exp(beta * z + logK), log1pY = std::log1p(y);
+      // Where y is too small for its logarithm, log1p(y) / y = 1; where it is too large, log1p(y) = log y.
+      const double logRatio = !(y > 0)        ? 0
+                              : std::isinf(y) ? std::log(beta * z + logK) - (beta * z + logK)
+                                              : std::log(log1pY / y);
+      const double slope = 1 - beta + (y > 0 ? beta / ((1 / y + 1) * log1pY) : beta);
+      const double move = (target - (z + logRatio)) / slope;
+      z += move;
+      if (z > kMostLog) return std::numeric_limits<double>::infinity();
+      if (!(std::abs(move) > 1e-15 * (1 + std::abs(z)))) break;
+    }
+    return std::exp(z);
+  }
+
+ private:
+  static constexpr int kMostSteps = 200;
 };
 
 }  // namespace pbrtmedia

@@ -36,9 +36,11 @@ struct PinkNoiseLaw {
     if (!(y > 0)) return std::exp(-depth);
     return std::isinf(y) ? 0 : std::exp(logarithm(depth)) / (1 + y);
   }
-  double depthReached(double u) const {
-    const double c2 = correlation * correlation, l = -std::log(u), y = c2 * l;
-    return y > 0 ? l * (std::expm1(y) / y) : l;
+  double depthReached(double u) const { return depthOfExponent(-std::log(u)); }
+  /// The F at which -log g reaches `exponent` >= 0; infinite where no double does.
+  double depthOfExponent(double exponent) const {
+    const double y = correlation * correlation * exponent;
+    return y > 0 ? exponent * (std::expm1(y) / y) : exponent;
   }
 
   /// Taylor coefficients c_k = g^(k)(depth) / k! follow from c_0 = g(depth) by
