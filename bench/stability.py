@@ -215,7 +215,7 @@ class Runner:
             for name, case in every.items():
                 if case["scene"] == "floor":
                     out.append(("estimators", e["name"], name, e["bias"], case, {}, f'"string transmittance" "{e["name"]}"'))
-        flights = {name: f'"string freeflight" "{name}"' for name in ("weighted-delta", "delta", "decomposition", "ray-marching", "regular")}
+        flights = {name: f'"string freeflight" "{name}"' for name in ("weighted-delta", "delta", "decomposition", "debiased-ray-marching", "ray-marching", "regular")}
         for model in ("adaptive", "terminating", "nonterminating"):
             flights[f"single-particle, {model}"] = f'"string freeflight" "single-particle" "string model" "{model}"'
         for flight, parameters in flights.items():

@@ -23,13 +23,14 @@ namespace pbrtmedia {
 
 /// Flights under any law g of a density that can only be looked up: the distance is drawn from a stand-in,
 /// and the weight is an unbiased estimate of what a collision there, or having passed, should weigh:
-///   collided at s  sigma_t rho(s) (-g'(F(s))) / q(s),  q = sigma_t mu / (1 + sigma_t M(s))^2,
-///   passed         g(F) / Q,                           Q = 1 / (1 + sigma_t M),
-/// mu the upper bound, M its integral, and -g' and g by debiased ray marching (TelescopedMarch) over the way
-/// flown: the inversion that MarchedFlight does with a bias, which its weights take away. The stand-in is the
-/// pink noise of C = 1, whose tail is above that of the other laws but for the heaviest. Misso et al. 2022,
-/// doi:10.1145/3528223.3530160, name unbiased flights as future work; this is one way. Several channels share
-/// distance and marches, the distance by the balance heuristic.
+///   collided at s  sigma_t rho(s) (-g'(F(s))) / q(s),  q = sigma_t mu (-p'(M)),
+///   passed         g(F) / p(M),                        M = sigma_t times the integral of mu,
+/// mu the upper bound, and -g' and g by debiased ray marching (TelescopedMarch) over the way flown: the
+/// inversion that MarchedFlight does with a bias, which its weights take away. The stand-in p is the law
+/// itself, so that weights are near 1 under tight bounds, and for a tenth of the flights 1 / (1 + M), whose
+/// long tail reaches what loose bounds hide. Misso et al. 2022, doi:10.1145/3528223.3530160, name unbiased
+/// flights as future work; this is one way. Several channels share distance and marches, the distance by the
+/// balance heuristic.
 ///
 /// Bias: none, wherever the bounds are positive. Weights: any, of either sign. The collisions of the linear
 /// law end in a jump, whose corrections fall as slowly as their cost rises: their variance is finite only as
@@ -57,7 +58,9 @@ struct DebiasedFlight {
   FlightSample<N> operator()(const Line& line, const FlightQuery<N>& query, SampleStream& stream) const {
     FlightSample<N> flight{.weight = query.importance};
     const double sigma = query.sigmaT[N == 1 ? 0 : chooseChannel(query.importance, stream.uniform())];
-    const double depth = 1 / stream.uniformAboveZero() - 1;
+    const AnyLaw law = query.law != nullptr ? *query.law : AnyLaw{};
+    const bool isFar = stream.uniform() < kFarShare;
+    const double u = stream.uniformAboveZero(), depth = isFar ? 1 / u - 1 : depthReachedOf(law, u);
     const double reached = sigma > 0 ? depth / sigma : std::numeric_limits<double>::infinity();
     double column = 0, mu = 0;  // of the bound, at the end of the flight
     line.walk([&](double sEnter, double sExit, const auto& bound) {
@@ -80,11 +83,13 @@ struct DebiasedFlight {
     double rho = 1, chance = 0;
     if (flight.collided) rho = static_cast<double>(boundedLookup(line, flight.s, mu, flight.tally));
     for (std::size_t c = 0; c < N; ++c) {
-      const double inverse = 1 / (1 + query.sigmaT[c] * column);
+      const double standIn = query.sigmaT[c] * column, inverse = 1 / (1 + standIn);
       chance +=
-          query.importance[c] / N * (flight.collided ? query.sigmaT[c] * mu * inverse * inverse : inverse);
+          query.importance[c] / N *
+          (flight.collided ? query.sigmaT[c] * mu * mixed(collisionDensityOf(law, standIn), inverse * inverse)
+                           : mixed(transmittanceOf(law, standIn), inverse));
     }
-    const Channels<N> share = rho > 0 ? estimate(line, query, flight, stream) : filled<N>(0);
+    const Channels<N> share = rho > 0 ? estimate(line, law, query, flight, stream) : filled<N>(0);
     for (std::size_t c = 0; c < N; ++c) {
       flight.weight[c] *= (flight.collided ? query.sigmaT[c] * rho : 1) * share[c] / chance;
     }
@@ -92,6 +97,9 @@ struct DebiasedFlight {
   }
 
  private:
+  static constexpr double kFarShare = .1;
+  static double mixed(double near, double far) { return (1 - kFarShare) * near + kFarShare * far; }
+
   /// A line that ends earlier.
   template <DensityLine Line>
   class Part {
@@ -117,9 +125,8 @@ struct DebiasedFlight {
 
   /// -g' where the flight collided, g where it passed.
   template <DensityLine Line, std::size_t N>
-  Channels<N> estimate(const Line& line, const FlightQuery<N>& query, FlightSample<N>& flight,
-                       SampleStream& stream) const {
-    const AnyLaw law = query.law != nullptr ? *query.law : AnyLaw{};
+  Channels<N> estimate(const Line& line, const AnyLaw& law, const FlightQuery<N>& query,
+                       FlightSample<N>& flight, SampleStream& stream) const {
     const bool jumps = flight.collided && std::holds_alternative<LinearLaw>(law);
     const TelescopedMarch march{
         .n = lookups, .levels = 0, .rate = jumps ? TelescopingLevels::kLeastRate : TelescopingLevels::kRate};
