@@ -47,7 +47,7 @@ class SamplerContract : public testing::TestWithParam<std::string_view> {
 
   /// With parameters that differ much from those of the exponential law.
   std::vector<AnyLaw> lawsServed() const {
-    std::vector<AnyLaw> laws{ExponentialLaw{}, PinkNoiseLaw{1.2}, DavisLaw{1.5, .4},   DavisLaw{.8, 0},
+    std::vector<AnyLaw> laws{ExponentialLaw{}, PinkNoiseLaw{1.2}, DavisLaw{1.5, .4},     DavisLaw{.8, 0},
                              DavisLaw{.9, 1},  LinearLaw{2},      MixtureLaw{.3, .05, 4}};
     std::erase_if(laws, [&](const AnyLaw& law) { return !traits_.laws.has(law); });
     return laws;

@@ -267,7 +267,8 @@ TEST(Medialab, ThePageOfEstimatorsKnowsAllOfThem) {
     }
   }
   for (const json& one : list["flights"]) {
-    const std::string row = "\n| `" + one["name"].get<std::string>() + "` | " + one["bias"].get<std::string>();
+    const std::string row =
+        "\n| `" + one["name"].get<std::string>() + "` | " + one["bias"].get<std::string>();
     EXPECT_NE(page.str().find(row), std::string::npos) << row << ": run medialab docs";
   }
 }

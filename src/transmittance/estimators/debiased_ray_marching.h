@@ -38,9 +38,9 @@ struct DebiasedRayMarching {
   AnyLaw law = {};
   /// No parameter: collisionEstimatorOf().
   LawCurve curve = LawCurve::Transmittance;
-  std::uint64_t n = 1;                       ///< look-ups at level 0
-  std::uint64_t levels = 2;                  ///< k, the level of the coarse march
-  double rate = TelescopingLevels::kRate;    ///< r
+  std::uint64_t n = 1;                     ///< look-ups at level 0
+  std::uint64_t levels = 2;                ///< k, the level of the coarse march
+  double rate = TelescopingLevels::kRate;  ///< r
   Comb comb = Comb::Equidistant;
   bool reuse = true;  ///< the coarse march is part of that of the correction
   std::uint64_t maxLookups = 0;

@@ -37,8 +37,8 @@ struct PrefixDebiasedRayMarching {
   AnyLaw law = {};
   /// No parameter: collisionEstimatorOf().
   LawCurve curve = LawCurve::Transmittance;
-  std::uint64_t n = 1;                       ///< look-ups at level 0
-  std::uint64_t levels = 2;                  ///< k, the level of the coarse march
+  std::uint64_t n = 1;       ///< look-ups at level 0
+  std::uint64_t levels = 2;  ///< k, the level of the coarse march
   double rate = TelescopingLevels::kRate;
   Comb comb = Comb::Equidistant;
   bool reuse = true;  ///< the coarse march is part of that of the corrections
