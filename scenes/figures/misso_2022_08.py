@@ -27,8 +27,8 @@ def make(run: Run) -> None:
     plot, axes = panels(8, 4, (1.5, 2.2))
     rows, curves = [], {}
     for index, (name, law) in enumerate(LAWS.items()):
-        found = renders.compare(run, "plume.pbrt", {name: medium("debiased-ray-marching", law)}, 4, (run.pick(2048, 512), medium("regular", law)), run.pick(8, 4), files=FILES,
-                                longer=run.pick(48, 16))
+        found = renders.compare(run, "plume.pbrt", {name: medium("debiased-ray-marching", law)}, 4, (run.pick(2048, 128), medium("regular", law)), run.pick(8, 4), files=FILES,
+                                longer=run.pick(48, 12))
         renders.pictures(axes[index], found.reference)
         renders.pictures(axes[4 + index], found.settings[name].first)
         axes[index].set_title(name, fontsize=7.5)

@@ -21,7 +21,7 @@ COMMON = {"estimator": "ratio", "flight": "weighted-delta"}
 def make(run: Run) -> None:
     spp = run.pick(32, 8)
     settings = {"exact": bounds("exact"), "too low (0.3)": bounds("constant", 0.3), "learned": learned()}
-    found = renders.compare(run, SCENE, settings, spp, (run.pick(512, 128), bounds("exact")), run.pick(4, 3), COMMON, files=SKY, longer=2)
+    found = renders.compare(run, SCENE, settings, spp, (run.pick(512, 64), bounds("exact")), run.pick(4, 3), COMMON, files=SKY, longer=2)
     # The first pass alone knows the start value only: images of one pass each are cut to it.
     cut = np.mean([run.render(SCENE, 1, seed=s, define={**COMMON, **learned()}, files=SKY).pixels for s in range(1, run.pick(33, 9))], axis=0)
     plot, axes = panels(5, 5, (1.6, 1.85))
@@ -40,6 +40,6 @@ def make(run: Run) -> None:
     run.claim("the cut image is that of hardly any medium: its mean difference from the right one, over its deviation from itself", Interval.exact(float(sky[0] / cut.mean())), above=0.02)
     run.claim(f"learned bounds: squared error over that with exact bounds after {spp} passes", renders.ratio_of_means(found.settings["learned"].errors, exact.errors), below=1.5,
               why="first passes see a thin medium, whose bias has not been averaged away yet")
-    late = renders.compare(run, SCENE, {"exact": bounds("exact"), "learned": learned()}, spp * 4, (run.pick(512, 128), bounds("exact")), 3, COMMON, files=SKY, longer=1)
+    late = renders.compare(run, SCENE, {"exact": bounds("exact"), "learned": learned()}, spp * 4, (run.pick(512, 64), bounds("exact")), 3, COMMON, files=SKY, longer=1)
     run.claim(f"and after {spp * 4} passes", renders.ratio_of_means(late.settings["learned"].errors, late.settings["exact"].errors), below=1.5, why="bias of the first passes fades like one over their number")
     run.claim(f"mean of the image after {spp * 4} passes with learned bounds, in shares", late.bias("learned"), above=-0.01, below=0.01, why="the start of thin passes is still seen")

@@ -64,6 +64,19 @@ class RunTest(unittest.TestCase):
         self.fresh().lab("estimate", trials=11, files=[table])
         self.assertEqual(self.calls(), 4)
 
+    def test_what_nobody_asked_for_is_forgotten(self):
+        first = self.fresh()
+        first.lab("estimate", trials=10)
+        first.lab("estimate", trials=11)
+        again = self.fresh()
+        again.lab("estimate", trials=11)
+        again.programs.forget_others()
+        self.assertEqual(len(list((self.root / "kept").iterdir())), 1)
+        again.lab("estimate", trials=11)
+        self.assertEqual(len(self.told), 2)
+        again.lab("estimate", trials=10)
+        self.assertEqual(len(self.told), 3)
+
     def test_options_become_words(self):
         self.run_.lab("estimate", control=[1, 2], top_efficiency=0.5, paper_depth=True, lower=None)
         self.assertTrue((self.root / "kept" / "calls").read_text().startswith("estimate --control 1,2 --top-efficiency 0.5 --paper-depth --format"))
@@ -99,6 +112,21 @@ class RunTest(unittest.TestCase):
         self.run_.finish()
         result = json.loads((self.run_.folder / "result.json").read_text())
         self.assertEqual(result["verdicts"][0]["outcome"], "reproduced")
+
+    def test_the_exit_status_is_about_known_numbers_and_not_about_verdicts(self):
+        def script(value: float):
+            def make_it(run: Run) -> None:
+                self.plots(run)
+                run.table([{"a": 1}])
+                run.expect("a number", "1.25", value)
+                run.claim("more", Interval.exact(0), above=1)  # not reproduced
+            return make_it
+        for value, status, told in ((1.25, 0, "1 of 1 known numbers agree"), (1.5, 1, "0 of 1 known numbers agree")):
+            with redirect_stderr(StringIO()) as errors, redirect_stdout(StringIO()) as said:
+                self.assertEqual(make([Entry(ENTRY.name, ENTRY.figure, script(value), ENTRY.script)], self.root / "all", self.root, True), status)
+            self.assertIn("more: 0: not reproduced", said.getvalue())
+            self.assertIn(f"1 of 1 figures were made, {told}", said.getvalue())
+            self.assertEqual("a number: 1.5" in errors.getvalue(), status == 1)
 
     def test_one_broken_script_does_not_stop_the_others(self):
         def good(run: Run) -> None:

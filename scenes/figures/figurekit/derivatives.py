@@ -72,6 +72,7 @@ def draw(run: Run, truth: np.ndarray, results: dict[str, Errors]) -> None:
         panel.set_xlabel(label, fontsize=7)
         panel.tick_params(labelsize=6.5)
     axes[-1].set_title("RMS error", fontsize=7.5)
+    axes[-1].legend(fontsize=6, frameon=False)
     timed.set_ylabel("RMS error")
     timed.legend(fontsize=7, frameon=False)
     run.plot(plot)

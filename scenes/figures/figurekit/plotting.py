@@ -20,6 +20,10 @@ WIDEST = 1100
 MOST_BYTES = 40_000
 """Of a picture of the docs."""
 
+# Pillow before 9.1, which Ubuntu 22.04 has, knows no such classes.
+LANCZOS = getattr(Picture, "Resampling", Picture).LANCZOS
+NO_DITHER = Picture.Dither.NONE if hasattr(Picture, "Dither") else 0
+
 
 def panels(count: int, columns: int = 2, size: tuple[float, float] = (3.7, 2.7), titles: Sequence[str] = ()) -> tuple[Plot, list[Axes]]:
     """Axes in rows; `size` is that of one, in inches."""
@@ -60,7 +64,11 @@ def legend_below(plot: Plot, axes: Axes, columns: int, inches: float = 0.4) -> N
     """What the labels of `axes` mean, below all panels."""
     width, height = plot.get_size_inches()
     plot.set_size_inches(width, height + inches)
-    plot.get_layout_engine().set(rect=(0, inches / (height + inches), 1, height / (height + inches)))
+    rect = (0, inches / (height + inches), 1, height / (height + inches))
+    if hasattr(plot, "get_layout_engine"):
+        plot.get_layout_engine().set(rect=rect)
+    else:  # matplotlib before 3.6, which Ubuntu 22.04 has: room all around
+        plot.set_constrained_layout_pads(h_pad=inches / 2)
     plot.legend(*axes.get_legend_handles_labels(), fontsize=7, frameon=False, loc="lower center", ncol=columns)
 
 
@@ -95,11 +103,11 @@ def shrink(source: Path, most: int = MOST_BYTES) -> bytes:
     """A PNG as a smaller file: fewer colours, and where these do not suffice fewer pixels."""
     picture = Picture.open(source).convert("RGB")
     if picture.width > WIDEST:
-        picture = picture.resize((WIDEST, round(picture.height * WIDEST / picture.width)), Picture.Resampling.LANCZOS)
+        picture = picture.resize((WIDEST, round(picture.height * WIDEST / picture.width)), LANCZOS)
     while True:
         for colours in (64, 32, 16):
             out = io.BytesIO()
-            picture.quantize(colours, dither=Picture.Dither.NONE).save(out, "PNG", optimize=True)
+            picture.quantize(colours, dither=NO_DITHER).save(out, "PNG", optimize=True)
             if out.tell() <= most:
                 return out.getvalue()
-        picture = picture.resize((picture.width * 4 // 5, picture.height * 4 // 5), Picture.Resampling.LANCZOS)
+        picture = picture.resize((picture.width * 4 // 5, picture.height * 4 // 5), LANCZOS)

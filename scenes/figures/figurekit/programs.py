@@ -53,6 +53,7 @@ class Programs:
     def __init__(self, bin_folder: Path, cache: Path, tell: Callable[[str], None]):
         self.bin, self.cache, self.tell = bin_folder, cache, tell
         self.hashes: dict[str, str] = {}
+        self.used: set[str] = set()
         cache.mkdir(parents=True, exist_ok=True)
 
     def key(self, program: str, words: list[str], files: list[Path]) -> str:
@@ -62,7 +63,15 @@ class Programs:
                 raise FigureError(f"no {path}; build it: ninja -C build/release {program}")
             self.hashes[program] = file_hash(path)
         parts = [self.hashes[program], *words, *(file_hash(p) for p in files)]
-        return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:20]
+        key = hashlib.sha256("\0".join(parts).encode()).hexdigest()[:20]
+        self.used.add(key)
+        return key
+
+    def forget_others(self) -> None:
+        """Takes away what is kept under names that nobody has asked for: of other programs, scenes and options."""
+        for path in self.cache.iterdir():
+            if path.stem not in self.used:
+                path.unlink()
 
     def run(self, program: str, words: list[str], folder: Path) -> str:
         """Standard output. Throws FigureError."""

@@ -89,9 +89,9 @@ def show(axes: list[Axes], comparison: Comparison, names: list[str], exposure: f
         panel.set_title(f"{name}\nRMSE {found.rmse():.2g}", fontsize=7.5)
 
 
-def gallery(comparison: Comparison, names: list[str] | None = None, columns: int = 5, size: float = 1.6, exposure: float = 1.0):
-    """All of it as one plot."""
+def gallery(comparison: Comparison, names: list[str] | None = None, columns: int = 5, size: float = 1.6, exposure: float = 1.0, height: float = 1.15):
+    """All of it as one plot; `height` of a picture with its title over its width."""
     shown = names or list(comparison.settings)
-    plot, axes = panels(len(shown) + 1, columns, (size, size * 1.15))
+    plot, axes = panels(len(shown) + 1, columns, (size, size * height))
     show(axes, comparison, shown, exposure)
     return plot
