@@ -3,7 +3,8 @@
 """Keeps the tables of docs/benchmarks.md and docs/convergence.md: nobody types a number there.
 
   benchmarks.py record FILE...   takes the results of a run into docs/benchmarks/: the JSON of layout_bench or estimator_bench
-                                 (--json FILE), summary.csv of pbrt-compare, of one scene or of several. Rows that a run did not measure stay
+                                 (--json FILE), summary.csv of pbrt-compare, of one scene or of several, the CSV of bench/ways.py. Rows that a run
+                                 did not measure stay
   benchmarks.py docs             writes the tables of the pages from docs/benchmarks/
   benchmarks.py check            status 1 if a page has other tables
 """
@@ -15,13 +16,14 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGES = {"docs/benchmarks.md": ("layouts", "estimators", "renders"), "docs/convergence.md": ("comparison",)}
+PAGES = {"docs/benchmarks.md": ("layouts", "estimators", "renders", "ways"), "docs/convergence.md": ("comparison",)}
 DATA = "docs/benchmarks"
 AXES = {"samples": "samples", "lookups": "lookups", "seconds": "cpu"}  # that variance times cost is told of; in summary.csv
 
 Rows = list[dict[str, str]]
 # Columns that tell the rows of a file apart.
-KEYS = {"layouts": ("grid", "layout"), "estimators": ("field", "estimator"), "renders": ("setting",), "comparison": ("scene", "setting")}
+KEYS = {"layouts": ("grid", "layout"), "estimators": ("field", "estimator"), "renders": ("setting",), "comparison": ("scene", "setting"),
+        "ways": ("scene", "way")}
 
 
 def number(value: float | None, form: str) -> str:
@@ -77,8 +79,11 @@ def record(root: pathlib.Path, path: pathlib.Path) -> str:
     else:
         with path.open(newline="") as file:
             rows = list(csv.DictReader(file))
-        several = len({r["scene"] for r in rows}) > 1
-        name, new = ("comparison", from_comparison(rows)) if several else ("renders", from_renders(rows))
+        if "way" in rows[0]:
+            name, new = "ways", rows
+        else:
+            several = len({r["scene"] for r in rows}) > 1
+            name, new = ("comparison", from_comparison(rows)) if several else ("renders", from_renders(rows))
     fresh = {tuple(r[k] for k in KEYS[name]): r for r in new}
     merged = [fresh.pop(tuple(r[k] for k in KEYS[name]), r) for r in read(root, name)] + list(fresh.values())
     with (root / DATA / f"{name}.csv").open("w", newline="") as file:
@@ -139,7 +144,15 @@ def comparison(rows: Rows) -> str:
     return table(["setting", *scenes], [[f"`{s}`", *(cell(by.get((s, scene))) for scene in scenes)] for s in settings])
 
 
-MAKERS = {"layouts": layouts, "estimators": estimators, "renders": renders, "comparison": comparison}
+def ways(rows: Rows) -> str:
+    def line(r: dict[str, str]) -> list[str]:
+        seconds, *noise = (float(r[c]) for c in ("seconds", "variance", "usual_variance", "median_variance"))
+        return [r["way"], r["scene"], f"{seconds:.2f}", *(f"{seconds * v:.2f}" for v in noise)]
+    changed = [r for r in rows if any(float(r[c]) != 1 for c in r if c not in ("scene", "way"))]  # not what the others are told relative to
+    return table(["way", "scene", "seconds", "variance x seconds", "without the worst 0.1 %", "by the median pixel"], [line(r) for r in changed])
+
+
+MAKERS = {"layouts": layouts, "estimators": estimators, "renders": renders, "comparison": comparison, "ways": ways}
 
 
 def page(root: pathlib.Path, name: str, text: str) -> str:

@@ -51,6 +51,12 @@ class Benchmarks(unittest.TestCase):
         self.assertIn("| `ratio` | 1.00 | 1.00 | 1.00 |\n", page)
         self.assertIn("| `mine` | 0.50 | 0.25 | 4.00 |\n", page)
 
+    def test_ways_tell_noise_times_time_of_all_but_what_they_are_relative_to(self):
+        page = self.record("ways.csv", "scene,way,seconds,variance,usual_variance,median_variance\n"
+                                       "fog,before,1.000,1.000,1.000,1.000\nfog,mine,0.500,0.800,1.200,2.000\n")
+        self.assertIn("| mine | fog | 0.50 | 0.40 | 0.60 | 1.00 |\n", page)
+        self.assertNotIn("| before |", page)
+
     def test_several_scenes_are_columns_and_bias_is_no_number(self):
         ends = "relative_cpu,relative_cpu_low,relative_cpu_high"
         path = self.root / "summary.csv"
