@@ -1,23 +1,20 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Plots of what `medialab converge` and `medialab estimate` write: lines with error bars, one panel for each problem."""
+"""Plots of the tables of `medialab`: lines with error bars, one panel for each problem."""
 import argparse
 import csv
 import json
 import math
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
-from .plots import COLOURS, dress, plain_ticks, style
+from .lab_tables import KINDS, TWO_SIDED, Row, curve, grouped, kind_of, log_bar
+from .plots import COLOURS, dress, plain_ticks
 from .problems import CaseError
 
 from matplotlib.axes import Axes  # isort: skip  (plots chooses the backend first)
 from matplotlib.figure import Figure  # isort: skip
 
-Row = dict[str, str]
 AXES = {"lookups": "density look-ups", "samples": "samples", "seconds": "seconds"}
-TWO_SIDED = 1.96
-"""Standard errors of a bar: 95 %."""
 MOST_BIAS_Z = 5.0
 
 
@@ -33,8 +30,8 @@ def read_rows(path: Path) -> list[Row]:
         raise CaseError(f"{path}: {error.strerror}") from error
     except (ValueError, KeyError, TypeError) as error:
         raise CaseError(f"{path}: no table of medialab: {error}") from error
-    if not rows or not ({"rmse", "samples"} <= rows[0].keys() or {"variance", "exact"} <= rows[0].keys()):
-        raise CaseError(f"{path}: expected the rows of medialab converge or estimate")
+    if not rows or not ({"rmse", "samples"} <= rows[0].keys() or {"variance", "exact"} <= rows[0].keys() or kind_of(rows[0])):
+        raise CaseError(f"{path}: expected the rows of medialab converge, estimate, {', '.join(KINDS)}")
     return rows
 
 
@@ -45,32 +42,11 @@ def problem_of(row: Row) -> str:
     return ", ".join([*parts, *([row["pattern"]] if row.get("pattern", "independent") != "independent" else [])])
 
 
-def grouped(rows: list[Row], key: Callable[[Row], str]) -> dict[str, list[Row]]:
-    groups: dict[str, list[Row]] = {}
-    for row in rows:
-        groups.setdefault(key(row), []).append(row)
-    return groups
-
-
-def log_bar(value: float, error: float) -> tuple[float, float]:
-    """Lower and upper part of a bar of a value above 0, in logarithms: it never reaches 0."""
-    width = math.exp(min(3.0, TWO_SIDED * error / value)) if math.isfinite(error) else 1.0
-    return value - value / width, value * width - value
-
-
 def draw_curve(axes: Axes, rows: list[Row], over: str, index: int) -> bool:
     """One estimator; False if it has no error to draw."""
-    points = [(float(r[over]), float(r["rmse"]), float(r["rmse_stderr"])) for r in rows]
-    points = [p for p in points if p[0] > 0 and math.isfinite(p[1]) and p[1] > 0]
-    if not points:
-        return False
-    colour, dash = style(index)
-    bars = list(zip(*(log_bar(y, e) for _, y, e in points)))
     slope, error = (float(rows[0].get(f"slope_{over}{end}", "nan")) for end in ("", "_stderr"))
     label = rows[0]["estimator"] + (f"  {slope:.2f} ± {TWO_SIDED * error:.2f}" if math.isfinite(slope) else "")
-    axes.errorbar([p[0] for p in points], [p[1] for p in points], yerr=bars, fmt="o" + dash, color=colour, markersize=3.2, linewidth=1.3,
-                  elinewidth=1, capsize=1.8, label=label)
-    return True
+    return curve(axes, ((float(r[over]), float(r["rmse"]), float(r["rmse_stderr"])) for r in rows), index, label)
 
 
 def converge_panel(axes: Axes, rows: list[Row], over: str, order: dict[str, int]) -> None:
@@ -112,24 +88,30 @@ def estimate_panel(axes: Axes, rows: list[Row], over: str) -> None:
               color="#666666", ha="right", va="bottom")
 
 
-def lab_figure(rows: list[Row], over: str) -> Figure:
-    """All problems of a table, in rows of two panels."""
+def lab_figure(rows: list[Row], over: str | None = None) -> Figure:
+    """All problems of a table, in rows of two panels. `over`: cost, where the table has several."""
+    kind = kind_of(rows[0])
+    if kind and over:
+        raise CaseError("this table has one axis only: --over is for those of converge and estimate")
+    over = over or "lookups"
     converges = "rmse" in rows[0]
     if converges and over not in rows[0]:
         raise CaseError(f"the table has no {over}")
-    panels = grouped(rows, problem_of)
-    order = {name: i for i, name in enumerate(grouped(rows, lambda r: r["estimator"]))}
+    panels = grouped(rows, kind.title if kind else problem_of)
+    order = {name: i for i, name in enumerate(grouped(rows, lambda r: r.get("estimator", "")))}
     columns = min(2, len(panels))
     lines = math.ceil(len(panels) / columns)
-    tall = 3.4 if converges else 1.3 + 0.19 * max(len(p) for p in panels.values())
+    tall = 3.4 if converges or kind else 1.3 + 0.19 * max(len(p) for p in panels.values())
     figure = Figure(figsize=(7.2 * columns, tall * lines), layout="constrained")
     figure.get_layout_engine().set(h_pad=0.1, w_pad=0.1)
     all_axes = figure.subplots(lines, columns, squeeze=False).reshape(-1)
     for axes in all_axes[len(panels):]:
         axes.remove()
     for axes, (title, part) in zip(all_axes, panels.items()):
-        dress(axes, title, 6 if converges else 14)
-        if converges:
+        dress(axes, title, 6 if converges or kind else 14)
+        if kind:
+            kind.draw(axes, part)
+        elif converges:
             converge_panel(axes, part, over, order)
         else:
             estimate_panel(axes, part, over)
@@ -137,10 +119,10 @@ def lab_figure(rows: list[Row], over: str) -> Figure:
 
 
 def main(words: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog="medialab-plot", description="Draws a table of medialab converge or estimate. Bars are of 95 %.")
+    parser = argparse.ArgumentParser(prog="medialab-plot", description="Draws a table of medialab: converge, estimate, levels, running, power-law, progressive. Bars are of 95 %.")
     parser.add_argument("table", type=Path, help=".csv or .json")
     parser.add_argument("-o", "--outfile", type=Path, help="picture: .png, .svg or .pdf (TABLE.png)")
-    parser.add_argument("--over", choices=AXES, default="lookups", help="cost (lookups)")
+    parser.add_argument("--over", choices=AXES, help="cost in tables of converge and estimate (lookups)")
     options = parser.parse_args(words)
     outfile = options.outfile or options.table.with_suffix(".png")
     try:
