@@ -30,8 +30,28 @@ install_packages() {
   fi
   say "installing ${#missing[@]} packages: ${missing[*]}"
   "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >&2
-  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${missing[@]}" >&2
+  # Ubuntu 22.04 lacks some that are optional (cmake says which parts are left out then).
+  local known=() unknown=()
+  for name in "${missing[@]}"; do
+    if apt-cache show "$name" >/dev/null 2>&1; then known+=("$name"); else unknown+=("$name"); fi
+  done
+  [ ${#unknown[@]} -eq 0 ] || say "not in the package lists of this system, left out: ${unknown[*]}"
+  [ ${#known[@]} -eq 0 ] && return 0
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends "${known[@]}" >&2
   rm -f "$root"/build/*/.options  # what was configured without them may find them now
+}
+
+# choose_compiler: GCC 12, which Ubuntu 22.04 has beside its own 11. A compiler that is asked for by CXX stays.
+choose_compiler() {
+  [ -z "${CXX:-}" ] && command -v g++ >/dev/null && [ "$(g++ -dumpversion | cut -d. -f1)" -lt 12 ] || return 0
+  if ! command -v g++-12 >/dev/null && [ "$(id -u)" -eq 0 ]; then
+    DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends g++-12 >&2
+  fi
+  command -v g++-12 >/dev/null || {
+    echo "error: g++ is older than 12 here; install g++-12 (apt-get install g++-12) or set CXX" >&2
+    return 1
+  }
+  export CC=gcc-12 CXX=g++-12
 }
 
 # configure_preset <preset> <cmake options...>: once, and again when the options changed (ninja itself notices changed
@@ -40,6 +60,7 @@ configure_preset() {
   local preset=$1 build=$root/build/$1
   shift
   [ -f "$build/build.ninja" ] && [ "$(cat "$build/.options" 2>/dev/null)" = "$*" ] && return 0
+  choose_compiler
   say "configuring $preset"
   (cd "$root" && cmake --preset "$preset" "$@" >"$build.log" 2>&1) || {
     cat "$build.log" >&2

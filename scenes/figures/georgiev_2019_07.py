@@ -39,7 +39,8 @@ def best(rows: list[Row], column: str) -> tuple[str, bool]:
 def check_known(run: Run) -> None:
     """Variances and costs of single points, known exactly or from millions of independent runs."""
     names = {"constant": "const", "cosine": "cos", "gaussian": "gauss", "hole": "hole", "linear-up": "lin_inc"}
-    columns = {"track-length": "track-length", "ratio": "ratio_tracking", "p-series-cmf": "p-cmf", "next-flight": "next-flight", "p-series-cumulative": "p-cumulative"}
+    columns = {"track-length": "track-length", "ratio": "ratio_tracking", "p-series-cmf": "p-cmf", "next-flight": "next-flight", "p-series-cumulative": "p-cumulative",
+               "unbiased-ray-marching": "urm"}
     for known in rows_of("canonical_lines"):
         function = next(f for f, n in names.items() if n == known["function"])
         rows = run.lab("estimate", estimator=list(columns), extinction=function, depth=-math.log(float(known["T"])), efficiency=known["ratio"],
@@ -48,11 +49,27 @@ def check_known(run: Run) -> None:
             variance, cost = str(known[columns[str(row["estimator"])]]).split("/")
             what = f"{row['estimator']} on {function}, T {known['T']}, ratio {known['ratio']}"
             trials = float(row["trials"])
-            if float(variance) > 1e-6:
+            if float(variance) > 1e-7:
                 unsure = 0.0 if row["estimator"] in ("track-length", "ratio", "p-series-cmf") else 2 * 10.0**(math.floor(math.log10(float(variance))) - 2)
+                if row["estimator"] == "unbiased-ray-marching":
+                    unsure = float(row["variance_stderr"]) * math.sqrt(trials / 5e5)
                 run.expect(f"variance of {what}", variance, float(row["variance"]), float(row["variance_stderr"]), unsure)
-            # A walk's look-ups are Poisson distributed at most.
-            run.expect(f"cost of {what}", cost, float(row["lookups"]), math.sqrt((1 + 2 * float(row["lookups"])) / trials), 0.005 * float(row["lookups"]))
+            # A walk's look-ups are Poisson distributed at most, those of ray marching are its teeth times a few combs.
+            spread = 3 * float(row["lookups"]) if row["estimator"] == "unbiased-ray-marching" else math.sqrt(1 + 2 * float(row["lookups"]))
+            run.expect(f"cost of {what}", cost, float(row["lookups"]), spread / math.sqrt(trials), 0.005 * float(row["lookups"]))
+
+
+def check_shares(run: Run, function: str, cells: list[list[Row]]) -> None:
+    """How often each estimator is best. Near ties are decided by luck here and there: both shares have the error of so many draws."""
+    for known in rows_of("best_estimators"):
+        if known["function"] != function:
+            continue
+        winners = [min((r for r in cell if r["estimator"] != "bidirectional-mis"), key=lambda r: float(r[known["column"]]))["estimator"] for cell in cells]
+        for name in ESTIMATORS:
+            if name in known:
+                share = float(known[name]) / 100
+                error = math.sqrt(max(share * (1 - share), 0.01) / len(cells))
+                run.expect(f"share of points of {function} at which {name} is best, {known['column']}", f"{share:.2f}", winners.count(name) / len(cells), error, error)
 
 
 def make(run: Run) -> None:
@@ -68,6 +85,8 @@ def make(run: Run) -> None:
         for row in rows:
             cells.setdefault((str(row["depth"]), str(row["control"])), []).append(row)
         assert len(cells) == wide * high
+        if not run.quick:
+            check_shares(run, function, list(cells.values()))
         picture = np.zeros((high, wide, 4))
         for index, cell in enumerate(cells.values()):
             for column, found in wins.items():

@@ -3,6 +3,7 @@ import math
 
 from figurekit.catalogue import Figure
 from figurekit.intervals import Interval, ratio
+from figurekit.known import rows_of
 from figurekit.plotting import curve, legend_below, log_axes, panels
 from figurekit.programs import Row
 from figurekit.run import Run
@@ -24,7 +25,24 @@ def root_work(row: Row) -> float:
     return math.sqrt(float(row["variance"]) * float(row["lookups"]))
 
 
+def check_known(run: Run) -> None:
+    """Moments of single estimates, from the definitions."""
+    for known in rows_of("answer_half"):
+        correlation = float(known["correlation"] or 0)
+        depth = (0.5**(-correlation**2) - 1) / correlation**2 if correlation else math.log(2)
+        row, = run.lab("estimate", estimator=known["estimator"], extinction=known["function"], depth=f"{depth:.12g}", law=known["law"],
+                       param=f"correlation={correlation}" if correlation else None, trials=run.pick(1_000_000, 100_000))
+        what = f"{known['estimator']} on {known['function']}, {known['law']}"
+        variance, cost = known["moments"].split("/")
+        error, lookups, trials = float(row["variance_stderr"]), float(row["lookups"]), float(row["trials"])
+        run.expect(f"variance of {what}", variance, float(row["variance"]), error, error * math.sqrt(trials / 2e6))
+        # Look-ups of random levels have no variance, rare ones carry much of their mean.
+        spread = 0.02 * lookups if known["estimator"].startswith("debiased") else (1 + 2 * lookups) / math.sqrt(trials)
+        run.expect(f"cost of {what}", cost, lookups, spread)
+
+
 def make(run: Run) -> None:
+    check_known(run)
     names = [*NEW, *OLD]
     plot, axes = panels(4, 2, (3.6, 2.2), [f"C = {c:g}, depth {d}" for c in (0.3, 0.8) for d in DEPTHS])
     table, gains = [], {}

@@ -12,4 +12,4 @@ FIGURE = Figure(
 
 
 def make(run: Run) -> None:
-    signed_bias(run, "caustic.pbrt", FIXED, {"debias": "single"}, [2**k for k in range(3, run.pick(10, 8))], run.pick(16, 6), 0.6)
+    signed_bias(run, "caustic.pbrt", FIXED, {"debias": "single"}, [2**k for k in range(3, run.pick(10, 7))], run.pick(16, 6), 0.6)

@@ -4,6 +4,4 @@
 NOT_THERE = {
     "szirmay-kalos-2017-11": "light samples driven by attenuation, source and scattering are not in the renderer yet",
     "szirmay-kalos-2017-12": "as figure 11",
-    "misso-2022-11": "its full run is not there yet",
-    "misso-2022-12": "its full run is not there yet",
 }

@@ -12,13 +12,15 @@ MOST_BYTES = 2_000_000
 HEAD = """\
 # Figures of papers
 
-This page is generated: `./figures --all`, then `./figures --docs`. `./figures NAME` makes one of them: data (CSV), plots (PNG, PDF) and verdicts in
-`build/figures/NAME/`, `--quick` a smaller one in `build/figures-quick/`. Each has a second plot that papers mostly lack: error against run time, on two cores
+This page is generated: `./figures`, then `./figures --docs`. Without parameters that command installs what is missing on a bare Debian 12 (Ubuntu 22.04 should do, and
+is not tested: it has no NanoVDB, which the figures of the plume need), builds, and makes all of them, in half an hour on two cores; stopped, it goes on where
+it was. `./figures NAME` makes one: data (CSV), plots (PNG, PDF) and verdicts in `build/figures/NAME/`, `--quick` a smaller one in `build/figures-quick/`. Each has a second plot that papers mostly lack: error against run time, on two cores
 of a machine that did other things too.
 
 A verdict is *reproduced* when all of our interval (95 %) agrees with the claim, *not reproduced* when none of it does, and *cannot be tested* otherwise.
 Assets of the papers are not public: scenes and densities are our own of the same kind, and what is compared are rankings and ratios. Where numbers
-are known independently (closed forms, other people's simulations), the scripts compare with them and fail when they differ; "compared" counts these.
+are known independently (closed forms, other people's simulations), the scripts compare with them and fail when they differ by more than four standard errors;
+"compared" counts these. `./check` runs `./figures --all --quick`: its exit status is 0 when every figure was made and all these numbers agree, whatever the verdicts.
 Counts of look-ups include all look-ups of an estimate, end points and pivots too; free flight is not counted. `p-series-cmf` evaluates the levels that published code
 does, one more than printed.
 """

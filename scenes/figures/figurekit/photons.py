@@ -31,7 +31,7 @@ def signed_bias(run: Run, scene: str, biased: dict[str, Any], debiased: dict[str
     run.claim(f"averaged, debiased renders are better: squared error of {repeats} of them over that of as many biased ones",
               Interval.exact(float(((whole - truth)**2).mean() / (bias * bias).mean())), below=1, why="their noise is still more than the bias")
     run.claim("error of debiased renders falls on: slope of the squared error", debiased_errors.slope(), above=-1.35, below=-0.4,
-              why="the variance of the paper's c is infinite, so that few renders hold most of the error")
+              why="single corrections have a tail like a Cauchy law's under the paper's c, see figure 12, so that rare ones hold most of the error")
 
 
 def draw(run: Run, found: dict[str, Errors], shown: list[np.ndarray], exposure: float) -> None:
