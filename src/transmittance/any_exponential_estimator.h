@@ -22,6 +22,7 @@
 #include "transmittance/estimators/regular_tracking.h"
 #include "transmittance/estimators/residual_ratio_tracking.h"
 #include "transmittance/estimators/residual_track_length.h"
+#include "transmittance/estimators/telescoping_ray_marching.h"
 #include "transmittance/estimators/track_length.h"
 #include "transmittance/estimators/two_comb_umvu.h"
 #include "transmittance/estimators/u_bk.h"
@@ -42,8 +43,8 @@ namespace pbrtmedia {
 using AnyExponentialEstimator =
     std::variant<RatioTracking, RegularTracking, DebiasedRayMarching, PrefixDebiasedRayMarching,
                  BidirectionalMis, NextFlight, PSeriesCmf, PSeriesCumulative, PSeriesNextFlight,
-                 UnidirectionalMis, UnbiasedRayMarching, BiasedRayMarching, RayMarching, BhanotKennedy, UBk,
-                 TwoCombUmvu, AdaptiveRatioTracking, Johnson, PSeriesRatio, PSeriesResidual, RandomMedium,
-                 ResidualRatioTracking, ResidualTrackLength, TrackLength>;
+                 UnidirectionalMis, UnbiasedRayMarching, TelescopingRayMarching, BiasedRayMarching,
+                 RayMarching, BhanotKennedy, UBk, TwoCombUmvu, AdaptiveRatioTracking, Johnson, PSeriesRatio,
+                 PSeriesResidual, RandomMedium, ResidualRatioTracking, ResidualTrackLength, TrackLength>;
 
 }  // namespace pbrtmedia

@@ -70,6 +70,28 @@ TEST(CombIntegrator, MatchesEndsSoThatLinearDensitiesAreExactForEveryCombAndSize
   }
 }
 
+TEST(CombIntegrator, JoinsTwoCombsHalfAToothApartToTheOneOfTwiceTheTeeth) {
+  const FunctionLine line{[](double s) { return 1 + s * s; }, {{1, {4, 0, 1.3f}}, {1.2, {4, 0, 2}}}};
+  Rng rng(kSeed);
+  SampleStream stream(rng);
+  LookupTally tally;
+  const BoundProfile profile(line);
+  for (const auto matching : {EndpointMatching::Off, EndpointMatching::On}) {
+    for (const Warp warp : {Warp::Off, Warp::On}) {
+      for (const double u : {0., .3, .5, .9}) {
+        CombIntegrator<FunctionLine> combs(line, profile, {Comb::Equidistant, matching, warp}, 3, false,
+                                           stream, tally);
+        EXPECT_EQ(combs.isWarped(), warp == Warp::On);
+        const double halves = (combs.integralFrom(u) + combs.integralFrom(std::fmod(u + .5, 1))) / 2;
+        combs.doubleTeeth();
+        tally = {};
+        EXPECT_NEAR(combs.integralFrom(std::fmod(2 * u, 1)), halves, 1e-6 * halves) << u;
+        EXPECT_EQ(tally.lookups, 6u);  // ends are known
+      }
+    }
+  }
+}
+
 /// In the warped variable it is rho / pdf that is linear.
 TEST(CombIntegrator, MatchesEndsOfTheWarpedIntegrand) {
   // Means 1 and 3 over [0,1] and [1,3]: z = s / 7 below 1, (1 + 3 (s - 1)) / 7 above; h = rho 7 / mean.

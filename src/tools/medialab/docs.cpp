@@ -9,9 +9,12 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 
 #include "base/parallel.h"
 #include "base/writable.h"
+#include "fields/canonical_function.h"
 #include "freeflight/any_flight.h"
 #include "tools/medialab/estimate.h"
 
@@ -313,6 +316,110 @@ void printMeasurements(std::ostream& out, const LabTable& table, const DocsOptio
   }
 }
 
+/// The estimator that is ours against that which was the best before it: all functions, and controls enough
+/// that the luck of a comb whose spacing meets a frequency of the function averages out.
+const std::string kOurs = "telescoping-ray-marching", kRival = "unbiased-ray-marching";
+const std::vector<double> kDuelControls{1, 1.5, 2.5, 5, 10};
+
+EstimateOptions duel(const DocsOptions& o) {
+  EstimateOptions e;
+  e.lab = o.lab;
+  e.selection.estimators = {kRival, kOurs};
+  e.problem.depths = {std::begin(kDepths), std::end(kDepths)};
+  e.problem.controls = kDuelControls;
+  e.trials = o.trials;
+  e.lab.command = "medialab estimate --estimator " + kRival + "," + kOurs + " --depth 0.1,1,4 --control ";
+  for (const double control : kDuelControls) {
+    e.lab.command += formatNumber(control) + (control == kDuelControls.back() ? "" : ",");
+  }
+  e.lab.command += " --trials " + std::to_string(o.trials) + " --seed " + std::to_string(o.lab.seed);
+  return e;
+}
+
+/// One function's cells: variance x cost of ours over that of the rival.
+struct Duel {
+  double logSum = 0, logVariance = 0;  ///< of the mean's terms
+  double worst = 0;
+  int cells = 0, won = 0, exact = 0;  ///< exact: ours alone has no variance
+
+  std::string mean() const {
+    if (cells == 0) return "";
+    const double half = 1.96 * std::sqrt(logVariance) / cells, log = logSum / cells;
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2g (%.2g – %.2g)", std::exp(log), std::exp(log - half),
+                  std::exp(log + half));
+    return text;
+  }
+};
+
+std::map<std::string, Duel> duelsBy(const LabTable& table, const char* cost) {
+  const auto at = [&](const char* name) { return table.column(name); };
+  struct Side {
+    double costliness, relativeError;
+    bool isExact;
+  };
+  std::map<std::tuple<std::string, double, double>, Side> rivals;
+  std::map<std::string, Duel> duels;
+  for (const auto& row : table.rows()) {
+    const double exact = row[at("exact")].number(), variance = row[at("variance")].number();
+    const std::string function = row[at("extinction")].text();
+    const Side side{variance * row[at(cost)].number(), row[at("variance_stderr")].number() / variance,
+                    !(variance > kRounding * kRounding * exact * exact)};
+    const std::tuple key{function, row[at("depth")].number(), row[at("control")].number()};
+    if (row[at("estimator")].text() == kRival) {
+      rivals.emplace(key, side);
+      continue;
+    }
+    const Side& rival = rivals.at(key);
+    Duel& duel = duels[function];
+    if (rival.isExact) continue;
+    if (side.isExact) {
+      ++duel.exact;
+      continue;
+    }
+    const double ratio = side.costliness / rival.costliness;
+    ++duel.cells;
+    duel.logSum += std::log(ratio);
+    duel.logVariance += side.relativeError * side.relativeError + rival.relativeError * rival.relativeError;
+    duel.worst = std::max(duel.worst, ratio);
+    duel.won += ratio < 1 ? 1 : 0;
+  }
+  return duels;
+}
+
+void printDuel(std::ostream& out, const LabTable& table, const DocsOptions& o) {
+  out << R"(
+## Telescoping against unbiased ray marching
+
+Variance x cost of `telescoping-ray-marching` over that of `unbiased-ray-marching`, both with default parameters: below 1 it wins. Geometric means
+over the optical depths and controls of the command below, with intervals of 95 %; the worst of these cells; and of how many cells (those where the
+rival's estimates agree to nine digits are left out) it wins, those where its own agree to nine digits included.
+
+- **Why.** Nearly all of the cost is one comb (of unbiased ray marching: three quarters), and combs with matched ends converge faster than their cost
+  grows, so that `tuplescale` 1.5 is better than 1 in this product; at 1 the gain is smaller, but there.
+- **Where it loses.** A comb whose spacing, or a fraction of it, meets a frequency of the density has no more than one tooth's knowledge of it, and one
+  whose teeth fall on jumps alike has no error: either estimator is lucky in some cells, the worst below are those where the other one was. Drawing
+  the number of teeth at random removes the luck of both kinds, and costs more than it gains. Behind bounds with means, `warp` spreads the teeth of
+  the smaller comb where it leaves the larger one straight: densities that are constant in each super-voxel are then better served by the smaller.
+- **Tails.** Corrections are rare, one in ten to one in a hundred, and weigh the inverse. `correctionprobability` makes them more frequent.
+
+)";
+  out << "```\n" << duel(o).lab.command << "\n```\n\n| function | look-ups |";
+  const bool hasSeconds = !o.lab.omitSeconds;
+  if (hasSeconds) out << " nanoseconds |";
+  out << " worst by look-ups | wins |\n| --- | --- | --- | --- |" << (hasSeconds ? " --- |" : "") << '\n';
+  const auto lookups = duelsBy(table, "lookups");
+  const auto seconds = hasSeconds ? duelsBy(table, "seconds_per_estimate") : lookups;
+  for (const std::string_view name : canonicalFunctionNames()) {
+    const Duel& one = lookups.at(std::string(name));
+    if (one.cells + one.exact == 0) continue;
+    out << "| " << name << " | " << one.mean() << " |";
+    if (hasSeconds) out << ' ' << seconds.at(std::string(name)).mean() << " |";
+    out << ' ' << brief(one.cells > 0 ? one.worst : 0) << " | " << one.won + one.exact << " of "
+        << one.cells + one.exact << " |\n";
+  }
+}
+
 void printLab(std::ostream& out) {
   out << R"(
 ## The lab
@@ -371,9 +478,11 @@ std::string docsPage(const DocsOptions& o, const StopSignal& stop) {
   printReciprocals(out);
   const LabTable table = estimateTable(measured(o), stop);
   const LabTable reciprocals = estimateTable(measuredReciprocals(o), stop);
+  const LabTable duels = estimateTable(duel(o), stop);
   if (stop) throw std::runtime_error("stopped: no page is written");
   printReciprocalMeasurements(out, reciprocals, o);
   printMeasurements(out, table, o);
+  printDuel(out, duels, o);
   printLab(out);
   return out.str();
 }

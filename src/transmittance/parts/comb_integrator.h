@@ -77,6 +77,9 @@ class CombIntegrator {
     }
     return mean;
   }
+  /// Twice the teeth from now on, spread as before; end points stay matched if they were. The combs at the
+  /// offsets u and u + 1/2 before are together the one at 2 u modulo 1.
+  void doubleTeeth() { teeth_ *= 2; }
   bool isWarped() const { return warps_; }
 
  private:
