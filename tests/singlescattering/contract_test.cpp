@@ -238,6 +238,36 @@ TEST_P(SamplingContract, CountsEachDistanceOnceWhateverItsNeighboursExplored) {
   }
 }
 
+TEST_P(SamplingContract, LeavesEndlessStretchesToCollisionsIfItExplores) {
+  if (!explores(sampling_)) return;
+  const Fog fog(Rgb(.1f), Rgb(.2f), {0, 1, 1});
+  const auto selector = uniformSelector(*fog.scene);
+  const SingleScattering single(fog.scene->lights(), selector.get(), sampling_);
+  const auto lit = single.lit(fog.stretch(kInfinity));
+  ASSERT_TRUE(lit);
+  Rng rng(kSeed);
+  RenderCounters counters;
+  single.sample(*lit, {.5f, .5f}, {}, rng, counters, [](const StretchSample&) { FAIL() << "sampled"; });
+  EXPECT_EQ(single.collisionShare(*lit, 0, 2, {0, 0, 2}), 1);
+}
+
+TEST_P(SamplingContract, WalksNoFurtherThanLightComes) {
+  if (!explores(sampling_)) return;
+  const Fog fog(Rgb(10), Rgb(9990), {0, 1, 1});
+  const auto selector = uniformSelector(*fog.scene);
+  const SingleScattering single(fog.scene->lights(), selector.get(), sampling_);
+  const auto lit = single.lit(fog.stretch(4));
+  ASSERT_TRUE(lit);
+  Rng rng(kSeed);
+  RenderCounters counters;
+  constexpr int kWalks = 1000;
+  for (int n = 0; n < kWalks; ++n) {
+    const float u = rng.uniform(), v = rng.uniform();
+    single.sample(*lit, {u, v}, {}, rng, counters, [](const StretchSample&) {});
+  }
+  EXPECT_LT(counters.nullCollisions, 10u * kWalks) << "of an optical depth of 40000";
+}
+
 TEST_P(SamplingContract, LeavesOutWhatCannotScatter) {
   const Fog fog(Rgb(0), Rgb(0), {0, 1, 1});
   const SingleScattering single(fog.scene->lights(), nullptr, sampling_);
