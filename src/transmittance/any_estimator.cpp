@@ -82,6 +82,9 @@ CollisionEstimator collisionEstimatorOf(const AnyEstimator& estimator) {
           const double c = held.law.correlation;
           held.law.correlation = c / std::sqrt(1 + c * c);
           return 1 + c * c;
+        } else {
+          static_assert(
+              !requires { held.law; }, "an estimator of any law has a `curve`");
         }
         return 1;
       },

@@ -58,6 +58,8 @@ struct TelescopingRayMarching {
   static constexpr std::uint64_t kMostTeeth = std::uint64_t{1} << 20;
 
   AnyLaw law = {};
+  /// No parameter: collisionEstimatorOf().
+  LawCurve curve = LawCurve::Transmittance;
   std::uint64_t tupleSize = 0;
   double tupleScale = 1.5;
   EndpointMatching endpointMatching = EndpointMatching::Auto;
@@ -127,7 +129,7 @@ struct TelescopingRayMarching {
     if (!(profile.length() > 0)) return estimate;
     const auto add = [&](double column, double factor) {
       for (std::size_t c = 0; c < N; ++c) {
-        estimate.value[c] += factor * transmittanceOf(law, sigmaT[c] * column);
+        estimate.value[c] += factor * valueOf(curve, law, sigmaT[c] * column);
       }
     };
     estimate.value = filled<N>(0);
