@@ -40,17 +40,21 @@ constexpr int kQuick = 16;
 /// Light paths of an iteration, with their photons some gigabytes.
 constexpr int kMaxPhotons = 1 << 25;
 
+/// Who makes no exploratory paths knows all strategies but the last.
+constexpr std::array<std::string_view, 5> kLightStrategies = {"uniform", "power", "spatial", "tree",
+                                                              "learned"};
+
 /// `fallback`: number of the default.
-std::string_view readLightSampleStrategy(ParamReader& in, std::size_t fallback) {
-  static constexpr std::array<std::string_view, 3> kStrategies = {"uniform", "power", "spatial"};
-  return kStrategies[in.findChoice("lightsamplestrategy", kStrategies, fallback)];
+std::string_view readLightSampleStrategy(ParamReader& in, std::span<const std::string_view> known,
+                                         std::size_t fallback) {
+  return known[in.findChoice("lightsamplestrategy", known, fallback)];
 }
 
 PathParams readPathParams(ParamReader& in) {
   PathParams p;
   p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   p.rrThreshold = findFloatWithin(in, "rrthreshold", p.rrThreshold, Range::nonNegative());
-  p.lightSampleStrategy = readLightSampleStrategy(in, 2);
+  p.lightSampleStrategy = readLightSampleStrategy(in, kLightStrategies, 2);
   return p;
 }
 
@@ -253,7 +257,7 @@ void readStrategyView(ParamReader& in, BdptParams& p) {
 IntegratorPlan readBdpt(ParamReader& in, const ConstructOptions&) {
   BdptParams p;
   p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
-  const std::string_view strategy = readLightSampleStrategy(in, 1);
+  const std::string_view strategy = readLightSampleStrategy(in, std::span(kLightStrategies).first(4), 1);
   readStrategyView(in, p);
   // Light subpaths start before anybody knows where they are looked at from.
   const std::string_view starts = strategy == "uniform" ? "uniform" : "power";

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
-#include "base/vec.h"
+#include "lighting/light_receiver.h"
 
 namespace pbrtmedia {
+
+class LightTrials;
 
 /// Picks one light of the scene's table for a point (scene-language reference 11.3). Immutable after
 /// construction as far as results are concerned, thread-safe. Never asked when the scene has no lights.
@@ -16,10 +20,31 @@ class LightSelector {
     std::size_t light;  ///< index into Scene::illuminants()
     float probability;  ///< > 0
   };
-  /// `p`: world; `u`: in [0, 1).
-  virtual Choice choose(Point3f p, float u) const = 0;
-  /// Probability that `choose(p, .)` picks the light.
-  virtual float probability(Point3f p, std::size_t light) const = 0;
+  /// `u`: in [0, 1).
+  virtual Choice choose(const LightReceiver& at, float u) const = 0;
+  /// Probability that `choose(at, .)` picks the light.
+  virtual float probability(const LightReceiver& at, std::size_t light) const = 0;
+  /// Whether uniform infinite lights are left to the directions that paths scatter into also in media, where
+  /// a light sample of them would be a second look at what dims them (LightReceiver::findsUniformLights).
+  virtual bool leavesOutUniformLights() const { return false; }
+
+  /// Whether light samples of exploratory paths would teach it something.
+  virtual bool canLearn() const { return false; }
+  /// Adds what a sample of a light that was chosen at the receiver has brought to the image (luminance).
+  virtual void note(const LightReceiver& at, std::size_t light, double contribution,
+                    LightTrials& trials) const {
+    (void)at, (void)light, (void)contribution, (void)trials;
+  }
+  /// Takes what trials teach into force, as a pure function of them; not while others ask. Answers the whole
+  /// of what was learned, from which `recall` has it again; false: the numbers are of another selector.
+  virtual std::vector<double> learn(const LightTrials& trials) const {
+    (void)trials;
+    return {};
+  }
+  virtual bool recall(std::span<const double> learned) const {
+    (void)learned;
+    return false;
+  }
 };
 
 }  // namespace pbrtmedia

@@ -129,13 +129,13 @@ const Distribution1D& SpatialLightSelector::tableAt(Point3f p) const {
   return *table;  // another thread was first: the same contents
 }
 
-LightSelector::Choice SpatialLightSelector::choose(Point3f p, float u) const {
-  const Distribution1D::Choice c = tableAt(p).choose(u);
+LightSelector::Choice SpatialLightSelector::choose(const LightReceiver& at, float u) const {
+  const Distribution1D::Choice c = tableAt(at.p).choose(u);
   return {c.index, c.probability};
 }
 
-float SpatialLightSelector::probability(Point3f p, std::size_t light) const {
-  return tableAt(p).probability(light);
+float SpatialLightSelector::probability(const LightReceiver& at, std::size_t light) const {
+  return tableAt(at.p).probability(light);
 }
 
 std::size_t SpatialLightSelector::filledVoxels() const {

@@ -32,8 +32,8 @@ class SpatialLightSelector final : public LightSelector {
   SpatialLightSelector(const SpatialLightSelector&) = delete;
   SpatialLightSelector& operator=(const SpatialLightSelector&) = delete;
 
-  Choice choose(Point3f p, float u) const override;
-  float probability(Point3f p, std::size_t light) const override;
+  Choice choose(const LightReceiver& at, float u) const override;
+  float probability(const LightReceiver& at, std::size_t light) const override;
 
   Point3i resolution() const { return resolution_; }
   /// Voxels filled so far.

@@ -62,6 +62,27 @@ Rgb DiffuseAreaLight::power() const {
   return static_cast<float>((twoSided_ ? 2 : 1) * kPi * shape_->area(primitive_)) * radiance_;
 }
 
+// A triangle shines to one side; what a normal is on other shapes changes over them.
+std::optional<LightExtent> DiffuseAreaLight::extent() const {
+  LightExtent extent{.bounds = shape_->bounds(), .solidAngle = (twoSided_ ? 2 : 1) * kPi};
+  const Shape::Geometry geometry = shape_->geometry();
+  const auto* const triangles = std::get_if<TriangleBuffers>(&geometry);
+  if (!triangles) return extent;
+  extent.bounds = {};
+  for (const std::uint32_t corner : triangles->indices[primitive_])
+    extent.bounds.expand(triangles->positions[corner]);
+  if (twoSided_) return extent;
+  // Hits are turned toward their shading normal, which may change sides inside; linear as it is, it does so
+  // between corners if anywhere.
+  const Normal3f n = shape_->sample(primitive_, {0, 0}).n;
+  for (const Point2f u : {Point2f{kOneMinusEpsilon, 0}, Point2f{kOneMinusEpsilon, kOneMinusEpsilon}}) {
+    if (dot(shape_->sample(primitive_, u).n, n) < 0) return extent;
+  }
+  extent.axis = Vector3f(emittingNormal(n));
+  extent.spread = 0;
+  return extent;
+}
+
 Rgb DiffuseAreaLight::emitted(Normal3f normal, Vector3f wo) const {
   return twoSided_ || dot(normal, wo) > 0 ? radiance_ : Rgb();
 }

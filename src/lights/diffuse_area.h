@@ -27,6 +27,7 @@ class DiffuseAreaLight final : public AreaLight {
   LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
   LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   Rgb power() const override;
+  std::optional<LightExtent> extent() const override;
   Rgb emitted(Normal3f normal, Vector3f wo) const override;
 
  private:

@@ -28,6 +28,9 @@ class DistantLight final : public Light {
   LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   /// π R² L with the radius R of the scene's bounding sphere, known after `preprocess`.
   Rgb power() const override;
+  std::optional<LightExtent> extent() const override {
+    return LightExtent{.axis = -toLight_, .spread = 0, .fade = 0};
+  }
   /// Unit, world space, from any point toward the light.
   Vector3f toLight() const { return toLight_; }
 

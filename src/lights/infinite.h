@@ -39,6 +39,7 @@ class InfiniteLight final : public Light {
   /// π R² times the mean radiance, with the radius R of the scene's bounding sphere, known after
   /// `preprocess`.
   Rgb power() const override;
+  std::optional<LightExtent> extent() const override { return LightExtent{}; }
 
  private:
   LightDirections directions_;

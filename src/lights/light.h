@@ -49,8 +49,6 @@ class Light : public Illuminant {
   virtual bool isInfinite() const { return false; }
   /// Whether it shines from infinitely far, all around or along one direction.
   bool isAtInfinity() const { return isInfinite() || (isDelta() && !deltaPosition()); }
-  /// The same radiance from every direction, so that sampling a BSDF or phase function finds it best.
-  virtual bool isUniformInfinite() const { return false; }
   /// The one point all its light comes from, if there is one; then radiance falls with 1/r².
   virtual std::optional<Point3f> deltaPosition() const { return std::nullopt; }
   /// Of a light with `deltaPosition`: narrows [tMin, tMax] (tMax may be infinite) to a part of the line

@@ -35,6 +35,7 @@ class ProjectionLight final : public Light {
   LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
   LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   Rgb power() const override;
+  std::optional<LightExtent> extent() const override { return LightExtent{.bounds = {position_, position_}}; }
   Point3f position() const { return position_; }
 
  private:

@@ -108,6 +108,16 @@ float SpotLight::directionPdf(Vector3f d, double factor) const {
   return whole > 0 ? static_cast<float>(factor / whole) * directions_.jacobian(d) : 0;
 }
 
+std::optional<LightExtent> SpotLight::extent() const {
+  const auto angle = static_cast<float>(std::acos(std::clamp(cosTotal_, -1.0, 1.0)));
+  return LightExtent{
+      .bounds = {position_, position_},
+      .axis = Vector3f(normalize(lightFromWorld_.inverse().vector(axis_))),
+      .spread = angle,
+      .fade = 0,
+      .solidAngle = static_cast<float>(2 * std::numbers::pi * (1 - 0.5 * (cosFalloffStart_ + cosTotal_)))};
+}
+
 Rgb SpotLight::power() const {
   return 2 * kPi * static_cast<float>(1 - 0.5 * (cosFalloffStart_ + cosTotal_)) * intensity_;
 }

@@ -30,6 +30,7 @@ class SpotLight final : public Light {
   LeSample sampleLe(Point2f uPosition, Point2f uDirection, float time) const override;
   LePdf pdfLe(const Ray& ray, Normal3f normal) const override;
   Rgb power() const override;
+  std::optional<LightExtent> extent() const override;
   Point3f position() const { return position_; }
   /// Fraction of the intensity at `cosine` of the angle from the axis: 0 outside the cone, 1 inside the ring.
   double falloff(double cosine) const;

@@ -9,6 +9,7 @@
 namespace pbrtmedia {
 
 class Camera;
+class LightTrials;
 struct MismatchLog;
 class SideSplats;
 class SplatBuffer;
@@ -25,6 +26,8 @@ struct SampleContext {
   SplatBuffer* splats = nullptr;
   LayerSample layers{};          ///< what the film wants to know besides radiance; nearly always nothing
   PixelSample pixelSample = {};  ///< what `rng` serves, for patterns over the samples of a pixel
+
+  LightTrials* lightTrials = nullptr;  ///< where the light samples of an exploratory path are noted
 
   const Camera* camera = nullptr;  ///< whose sample it is, for integrators that look for it from the scene
   Point2i pixel = {};

@@ -52,8 +52,8 @@ Rgb renderSample(const Camera& camera, Sampler& sampler, const SamplingIntegrato
                                 static_cast<std::uint64_t>(sample),
                                 static_cast<std::uint64_t>(std::max<std::int64_t>(samplesPerPixel, 0)), 0};
   const std::unique_ptr<TileMemory> own = output.memory ? nullptr : integrator.tileMemory(camera, seed);
-  SampleContext context{sampler,       rng,           counters,    output.mismatches,
-                        output.splats, output.layers, pixelSample, &camera};
+  SampleContext context{sampler,     rng,     counters, output.mismatches, output.splats, output.layers,
+                        pixelSample, nullptr, &camera};
   context.pixel = pixel;
   context.memory = output.memory ? output.memory : own.get();
   SideSplats sides(output.sides, cameraSample.film, weighted.weight);

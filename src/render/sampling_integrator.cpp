@@ -11,10 +11,14 @@
 #include <vector>
 
 #include "base/byte_stream.h"
+#include "base/diagnostics.h"
 #include "base/interruption.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "film/side_images.h"
+#include "lighting/light_selector.h"
+#include "lighting/light_trials.h"
+#include "render/light_exploration.h"
 #include "render/pass_loop.h"
 #include "render/pass_shares.h"
 #include "render/ranks.h"
@@ -84,6 +88,8 @@ class TileLoop {
   }
 
   std::vector<UnitReport> takeSamples(const Pass& pass) {
+    RenderCounters explored;
+    exploreLights(explored);
     balance();
     const std::span<const std::size_t> tiles = shares_.takenBy(ranks_.rank());
     prepare(pass, tiles);
@@ -97,7 +103,25 @@ class TileLoop {
                  sides_.empty() ? std::span<SplatBuffer>() : std::span<SplatBuffer>(sides_[i]));
       costs_[tiles[i]] += static_cast<std::uint64_t>(watch.seconds() * 1e9);
     });
+    if (ranks_.isFirst() && !reports.empty()) reports.front().counters.add(explored);
     return reports;
+  }
+
+  /// What lights bring, before the first pass; of a render that goes on it was found out before.
+  void exploreLights(RenderCounters& counters) {
+    const LightSelector* const learner = integrator_.learner();
+    if (areLightsExplored_ || !learner || !learner->canLearn()) return;
+    areLightsExplored_ = true;
+    std::vector<double>& learned = loop_.carried();
+    if (learned.empty()) {
+      learner->learn({});  // what another render with the same integrator has found is forgotten
+      const std::optional<LightTrials> trials = pbrtmedia::exploreLights(
+          camera_, film_.settings().resolution, integrator_, options_.seed,
+          [this] { return loop_.shouldStop(); }, counters);
+      if (trials) learned = learner->learn(*trials);
+    } else if (!learner->recall(learned)) {
+      throw SceneError({}, "the checkpoint does not have what was learned of the scene's lights");
+    }
   }
 
   /// Memory for a pass. With several ranks that of the last one serves again: nobody looks at what is neither
@@ -208,6 +232,7 @@ class TileLoop {
   std::optional<SamplePass> taken_;      ///< by the pass under way
   std::vector<SplatBuffer> splats_;      ///< by tiles
   std::vector<SideImages::Unit> sides_;  ///< the same; empty where nobody wants them
+  bool areLightsExplored_ = false;
   PassLoop loop_;
 };
 

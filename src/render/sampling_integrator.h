@@ -12,6 +12,8 @@
 
 namespace pbrtmedia {
 
+class LightSelector;
+
 /// An integrator that estimates the radiance along camera rays, each by itself; all of them render in one
 /// loop over tiles of pixels.
 class SamplingIntegrator : public Integrator {
@@ -29,6 +31,8 @@ class SamplingIntegrator : public Integrator {
   /// Those that `radiance` sets in SampleContext::layers when they are wanted, without any effect on what it
   /// answers or draws.
   virtual LayerMask layersOfRays() const { return {}; }
+  /// What chooses lights and may learn from exploratory paths (SampleContext::lightTrials); null: nothing.
+  virtual const LightSelector* learner() const { return nullptr; }
 
   RenderResult render(const Camera& camera, const Sampler& sampler, Film& film,
                       const RenderOptions& options) const final;

@@ -31,7 +31,12 @@ class CollisionDensity {
   CollisionDensity(const MediaStretch& media, const LightSelector& selector, std::size_t light, double t,
                    Point3f p)
       : media_(media), selector_(selector), light_(light), t_(t), p_(p) {}
-  double operator()() const { return media_.flightDensity(t_) * double{selector_.probability(p_, light_)}; }
+  /// Of a collision with any phase function, as all of them share what is found.
+  double operator()() const {
+    LightReceiver at(p_);
+    at.findsUniformLights = selector_.leavesOutUniformLights();
+    return media_.flightDensity(t_) * double{selector_.probability(at, light_)};
+  }
 
  private:
   const MediaStretch& media_;

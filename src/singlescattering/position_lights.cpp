@@ -2,13 +2,18 @@
 #include "singlescattering/position_lights.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
+
+#include "base/hash.h"
+#include "lighting/light_importance.h"
 
 namespace pbrtmedia {
 namespace {
 
 /// As in light selection: what no power is known of is still found.
 constexpr double kSmallestShare = 1e-3;
+constexpr double kLeastSolidAngle = 1e-3;  // sr: of spot lights that are hardly open
 
 /// Whether distances of density p proportional to 1/r² give less noise than collisions in a medium of this
 /// extinction sigma. The second moments of the two estimates of the integral of sigma T / r² are as
@@ -27,6 +32,22 @@ bool isQuieter(const Equiangular& distances, double tMin, double sigma) {
   return kCost * stretch < collisions;
 }
 
+auto importanceOn(const PositionLights::Stretch& stretch) {
+  return [o = Vec3d(stretch.ray.o), d = Vec3d(stretch.ray.d), &stretch](const LightTree::Node& node) {
+    return importanceAlong(o, d, stretch.tMin, stretch.tMax, node);
+  };
+}
+
+auto importanceFor(Point3f p) {
+  return [at = LightReceiver(p)](const LightTree::Node& node) { return importanceAt(at, node); };
+}
+
+/// `u` with more digits, which a long way down a tree needs; they follow from both numbers.
+double refine(float u, float v) {
+  const std::uint64_t hash = hashCombine(std::bit_cast<std::uint32_t>(u), std::bit_cast<std::uint32_t>(v));
+  return static_cast<double>(u) + static_cast<double>(hash >> 40) * 0x1p-48;
+}
+
 }  // namespace
 
 PositionLights::PositionLights(const std::vector<const Light*>& lights) : slots_(lights.size(), kNoSlot) {
@@ -41,12 +62,16 @@ PositionLights::PositionLights(const std::vector<const Light*>& lights) : slots_
   }
   if (lights_.empty()) return;
   const double average = sum > 0 ? sum / static_cast<double>(lights_.size()) : 1;
-  std::vector<float> weights;
-  for (Entry& e : lights_) {
-    e.power = std::max(e.power / average, kSmallestShare);
-    weights.push_back(static_cast<float>(e.power));
+  for (Entry& e : lights_) e.power = std::max(e.power / average, kSmallestShare);
+  if (weighsEach()) return;
+  std::vector<LightTree::Source> sources;
+  for (const Entry& e : lights_) {
+    const LightExtent extent = e.source->extent().value_or(LightExtent{});
+    LightExtent here = extent;
+    here.bounds = {Point3f(e.position), Point3f(e.position)};
+    sources.push_back({here, e.power / std::max(static_cast<double>(extent.solidAngle), kLeastSolidAngle)});
   }
-  byPower_ = Distribution1D(weights);
+  tree_ = LightTree(sources);
 }
 
 std::optional<Equiangular> PositionLights::over(const Entry& e, const Stretch& stretch) {
@@ -68,10 +93,10 @@ std::optional<StretchSample> PositionLights::sample(const Stretch& stretch, floa
     return StretchSample{e.light, t, pdf};
   };
   if (!weighsEach()) {
-    const Distribution1D::Choice c = byPower_.choose(u);
-    const Entry& e = lights_[c.index];
+    const LightTree::Choice c = tree_.choose(0, refine(u, v), importanceOn(stretch));
+    const Entry& e = lights_[c.source];
     const std::optional<Equiangular> distances = over(e, stretch);
-    return distances ? at(e, *distances, double{c.probability}) : std::nullopt;
+    return distances ? at(e, *distances, c.probability) : std::nullopt;
   }
   std::array<std::optional<Equiangular>, kMostWeighed> distances;
   std::array<double, kMostWeighed> weights{};
@@ -98,7 +123,7 @@ double PositionLights::pdf(std::size_t light, const Stretch& stretch, double t) 
   if (!own) return 0;
   const double atDistance = own->pdf(t);
   if (!(atDistance > 0) || lights_.size() == 1) return atDistance;
-  if (!weighsEach()) return double{byPower_.probability(slot)} * atDistance;
+  if (!weighsEach()) return tree_.probability(0, slot, importanceOn(stretch)) * atDistance;
   double sum = 0;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const std::optional<Equiangular> distances = i == slot ? own : over(lights_[i], stretch);
@@ -116,8 +141,8 @@ double PositionLights::strengthAt(const Entry& e, Point3f p) {
 PositionLights::Choice PositionLights::choose(Point3f p, float u) const {
   if (lights_.size() == 1) return {lights_[0].light, 1};
   if (!weighsEach()) {
-    const Distribution1D::Choice c = byPower_.choose(u);
-    return {lights_[c.index].light, double{c.probability}};
+    const LightTree::Choice c = tree_.choose(0, refine(u, p.x), importanceFor(p));
+    return {lights_[c.source].light, c.probability};
   }
   double sum = 0;
   for (const Entry& e : lights_) sum += strengthAt(e, p);
@@ -134,7 +159,7 @@ PositionLights::Choice PositionLights::choose(Point3f p, float u) const {
 double PositionLights::probability(Point3f p, std::size_t light) const {
   if (lights_.size() == 1) return 1;
   const std::size_t slot = slots_[light];
-  if (!weighsEach()) return double{byPower_.probability(slot)};
+  if (!weighsEach()) return tree_.probability(0, slot, importanceFor(p));
   double sum = 0;
   for (const Entry& e : lights_) sum += strengthAt(e, p);
   return strengthAt(lights_[slot], p) / sum;

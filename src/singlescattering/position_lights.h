@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "base/distribution.h"
 #include "base/ray.h"
+#include "lighting/light_tree.h"
 #include "lights/light.h"
 #include "singlescattering/equiangular.h"
 #include "singlescattering/stretch_sample.h"
@@ -41,8 +41,8 @@ class PositionLights {
     std::size_t light;
     double probability;
   };
-  /// A light for a point, by power over the square of the distance; where they are many, by power. There is a
-  /// light. `u` in [0, 1).
+  /// A light for a point, by power over the square of the distance, and where they are many also by where
+  /// they shine. There is a light. `u` in [0, 1).
   Choice choose(Point3f p, float u) const;
   /// That `choose` answers with this one of its lights.
   double probability(Point3f p, std::size_t light) const;
@@ -53,8 +53,7 @@ class PositionLights {
 
  private:
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
-  /// Up to here lights are chosen by what they do on the stretch; more of them by their power alone, as
-  /// looking at each on every stretch would cost more than it gains.
+  /// Up to here each light is looked at on every stretch; of more, one is chosen by walking down a tree.
   static constexpr std::size_t kMostWeighed = 16;
 
   struct Entry {
@@ -70,7 +69,7 @@ class PositionLights {
 
   std::vector<Entry> lights_;
   std::vector<std::uint32_t> slots_;  ///< of each light of the table
-  Distribution1D byPower_;
+  LightTree tree_;                    ///< of more than kMostWeighed
 };
 
 }  // namespace pbrtmedia

@@ -62,6 +62,13 @@ Rgb MediumLight::power() const {
   return total / static_cast<float>(volumeScale(medium_.placement->mediaFromWorld(-kInfinity)));
 }
 
+std::optional<LightExtent> MediumLight::extent() const {
+  if (medium_.placement) return std::nullopt;  // it may move
+  const Bounds3f bounds = volume_.bounds();
+  if (bounds.isEmpty()) return std::nullopt;
+  return LightExtent{.bounds = bounds};
+}
+
 Segment MediumLight::lineOf(Point3f reference, Vector3f wi, float time) const {
   const Segment line{reference, wi, 0, static_cast<double>(kInfinity)};
   return medium_.placement ? medium_.placement->toObject(line, time) : line;

@@ -27,6 +27,7 @@ class MediumLight final : public Illuminant {
   MediumLight(const PlacedMedium& medium, const EmissionVolume& volume);
 
   Rgb power() const override;
+  std::optional<LightExtent> extent() const override;
   /// Of a light at one of its points that has the power of all, at the time at which movements start.
   double arrivingLuminance(Point3f reference, Point2f u) const override;
 

@@ -32,8 +32,9 @@ TEST(ConstructIntegrator, EveryParameterHasItsEffect) {
     effects.push_back({deep, deep + " \"float rrthreshold\" 0"});
     effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"uniform\""});
     effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"power\""});
+    effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"tree\""});
   }
-  for (const char* strategy : {"uniform", "spatial"}) {
+  for (const char* strategy : {"uniform", "spatial", "tree"}) {
     effects.push_back(
         {"Integrator \"bdpt\"",
          std::string("Integrator \"bdpt\" \"string lightsamplestrategy\" \"") + strategy + '"'});

@@ -161,8 +161,10 @@ const Ray kAtFloor = rayAtTime({2, 0, -1}, {-2, 0, -1});  // reaches it below th
 /// Always picks the first light, a dark one: emission is found by distances alone.
 class PicksTheDark final : public LightSelector {
  public:
-  Choice choose(Point3f, float) const override { return {0, 1}; }
-  float probability(Point3f, std::size_t light) const override { return light == 0 ? 1.0f : 0.0f; }
+  Choice choose(const LightReceiver&, float) const override { return {0, 1}; }
+  float probability(const LightReceiver&, std::size_t light) const override {
+    return light == 0 ? 1.0f : 0.0f;
+  }
 };
 /// Estimates in glowingBall() by distance sampling alone.
 Estimates unlit(const Gas& gas, const Placing* placing, const PathParams& params, const Ray& ray,

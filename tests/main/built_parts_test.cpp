@@ -118,7 +118,7 @@ TEST_F(Built, TexturesThatMaterialsUseAndThenDifferentials) {
 TEST_F(Built, TablesOfLightsWhereThereIsAChoice) {
   const std::string point = Words{}.light, two = point + "LightSource \"point\" \"point from\" [ 3 0 -3 ]\n";
   const Parts tree = {{"rayTrees", 1}}, table = {{"lightDistributions", 1}, {"rayTrees", 1}};
-  for (const std::string strategy : {"uniform", "power", "spatial"}) {
+  for (const std::string strategy : {"uniform", "power", "spatial", "tree", "learned"}) {
     const std::string integrator = "\"volpath\" \"string lightsamplestrategy\" \"" + strategy + "\"";
     EXPECT_EQ(by({.integrator = integrator}), tree) << strategy;
     EXPECT_EQ(by({.integrator = integrator, .light = two}), strategy == "uniform" ? tree : table) << strategy;

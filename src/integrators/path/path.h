@@ -20,9 +20,10 @@ enum class ChannelSampling {
 
 /// Parameters that `path` and `volpath` share (scene-language reference 11.1, 11.2).
 struct PathParams {
-  int maxDepth = 5;                             ///< scattering vertices of a path; 0: visible emission only
-  float rrThreshold = 1;                        ///< roulette is played on throughputs below it; 0: never
-  std::string lightSampleStrategy = "spatial";  ///< uniform, power or spatial; for whoever makes the selector
+  int maxDepth = 5;       ///< scattering vertices of a path; 0: visible emission only
+  float rrThreshold = 1;  ///< roulette is played on throughputs below it; 0: never
+  std::string lightSampleStrategy =
+      "spatial";  ///< a word of lightStrategyOfName; for whoever makes the selector
   MediumLightSampling mediumLightSampling = {};             ///< `volpath` only
   ChannelSampling channelSampling = ChannelSampling::Auto;  ///< `volpath` only
 };
@@ -36,6 +37,7 @@ class PathIntegrator final : public SamplingIntegrator {
   ~PathIntegrator() override;
   std::string_view typeName() const override { return "path"; }
   LayerMask layersOfRays() const override;
+  const LightSelector* learner() const override { return selector_.get(); }
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
 
  private:

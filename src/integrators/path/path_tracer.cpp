@@ -29,12 +29,6 @@ constexpr float kSplitFactor = 3;
 /// Flights on segments before the scattering of this number are led by stratified numbers.
 constexpr int kLedBounces = 1;
 
-/// Whether sampling the BSDF reaches every direction in which it scatters. With a shading normal, or glossy
-/// lobes, some can be reached by light samples only.
-bool samplingCoversBsdf(const Bsdf& bsdf, const SurfaceInteraction& si) {
-  return bsdf.count(BsdfFlags::AllDiffuse) == bsdf.count() && bsdf.shadingNormal() == si.n;
-}
-
 }  // namespace
 
 PathTracer::PathTracer(const PathSetup& setup, const RayDifferential& ray, const MediumState& start,
@@ -223,7 +217,6 @@ bool PathTracer::scatterOnSurface() {
   Bsdf bsdf = material.bsdf(si, TransportMode::Radiance, /*mergeSpecular=*/true);
   if (layers_ && bounces_ == 0) tellSurface(bsdf);
   if (material.hasBssrdf() && !indirect_) bsdf.separateSubsurface();
-  ownsUniformLights_ = samplingCoversBsdf(bsdf, si);
   if (bsdf.count(BsdfFlags::AllButSpecular) > 0) lightSurface(bsdf);
 
   const LobeChoice choice = askForIndirectLight(bsdf);
@@ -255,7 +248,6 @@ bool PathTracer::scatterBelowSurface() {
   si.wo = Vector3f(si.shading.n);
   Bsdf bsdf(si, TransportMode::Radiance);
   bsdf.add(Lobe(Rgb(1), RareLobe(SubsurfaceExit(bssrdf->eta(), /*isRadiance=*/true))));
-  ownsUniformLights_ = samplingCoversBsdf(bsdf, si);
   lightSurface(bsdf);
   const BsdfSample sample = bsdf.sample(si.wo, samples_.get2D());
   if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
@@ -312,9 +304,6 @@ bool PathTracer::scatterInMedium() {
   }
   samples_.startVertex(bounces_);
   if (layers_ && bounces_ == 0) tellScattering();
-  // A phase function samples a uniform light perfectly, but not what dims it on the way: where light sampling
-  // adds a second, independent look through the medium, it pays (variance and time change by like factors).
-  ownsUniformLights_ = false;
   lightMedium();
   if (indirect_) {
     const Rgb sigmaS = MediaStretch(state_, ray_, medium_.tMin, medium_.tMax).sigmaS(medium_.t, counters_);

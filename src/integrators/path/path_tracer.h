@@ -8,6 +8,7 @@
 #include "integrators/path/path.h"
 #include "integrators/path/path_event.h"
 #include "integrators/path/path_samples.h"
+#include "lighting/light_receiver.h"
 #include "materials/bsdf.h"
 #include "media/phase/phase_function.h"
 #include "render/ray_layers.h"
@@ -98,9 +99,10 @@ class PathTracer {
     float probability;   ///< of the pick
     LightSample sample;  ///< pdf includes `probability`
   };
-  std::optional<PickedLight> pickLight(Point3f p, bool scatteringFindsUniformLights);
+  std::optional<PickedLight> pickLight();
   Rgb arriving(const PickedLight& light, Point3f p, const Exclusions& start, const MediumState& state,
                const ScatterPoint* from = nullptr);
+  void gatherLight(const PickedLight& light, Rgb radiance, RayLayers::Scatterer here);
   float lightWeight(const PickedLight& light, float directionPdf) const;
   float collisionShare(std::size_t light, Point3f p) const;
   float emissionWeight(std::size_t light, const SurfaceInteraction* si) const;
@@ -132,9 +134,9 @@ class PathTracer {
   ScatteringsInPlace inPlace_;
   float etaScale_ = 1;  ///< undoes the radiance scaling of refraction in roulette decisions
   // The vertex the current segment starts on, as multiple importance sampling sees it.
-  bool isDirect_ = true;            ///< camera or perfect specular vertex: emission counts fully
-  float directionPdf_ = 0;          ///< solid-angle density of the segment's direction
-  bool ownsUniformLights_ = false;  ///< no light sample was spent on uniform infinite lights there
+  bool isDirect_ = true;               ///< camera or perfect specular vertex: emission counts fully
+  float directionPdf_ = 0;             ///< solid-angle density of the segment's direction
+  LightReceiver receiver_{Point3f()};  ///< what the light sample there was chosen for
 };
 
 }  // namespace pbrtmedia

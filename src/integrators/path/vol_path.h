@@ -23,6 +23,7 @@ class VolPathIntegrator final : public SamplingIntegrator {
   std::string_view typeName() const override { return "volpath"; }
   std::unique_ptr<TileMemory> tileMemory(const Camera& camera, std::uint64_t seed) const override;
   LayerMask layersOfRays() const override;
+  const LightSelector* learner() const override { return selector_.get(); }
   Rgb radiance(const RayDifferential& ray, SampleContext& context) const override;
   const CameraMedium& cameraMedium() const { return media_.camera(); }
 
