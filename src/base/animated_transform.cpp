@@ -2,6 +2,7 @@
 #include "base/animated_transform.h"
 
 #include <cmath>
+#include <utility>
 
 namespace pbrtmedia {
 namespace {
@@ -80,34 +81,41 @@ AnimatedTransform::Parts AnimatedTransform::decompose(const Matrix4& m) {
   return parts;
 }
 
+AnimatedTransform::AnimatedTransform() {
+  static const auto identity = std::make_shared<const Transform>();
+  start_ = identity;
+}
+
 AnimatedTransform::AnimatedTransform(const Transform& start, double startTime, const Transform& end,
                                      double endTime)
-    : start_(start), end_(end), startTime_(startTime), endTime_(endTime), animated_(!(start == end)) {
-  if (!animated_) return;
-  a_ = decompose(start.matrix());
-  b_ = decompose(end.matrix());
-  if (a_.w * b_.w + a_.x * b_.x + a_.y * b_.y + a_.z * b_.z < 0) {  // the shorter arc
-    b_.w = -b_.w;
-    b_.x = -b_.x;
-    b_.y = -b_.y;
-    b_.z = -b_.z;
+    : AnimatedTransform(start) {
+  if (start == end) return;
+  Motion motion{end, startTime, endTime, decompose(start.matrix()), decompose(end.matrix())};
+  const Parts& a = motion.a;
+  Parts& b = motion.b;
+  if (a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < 0) {  // the shorter arc
+    b.w = -b.w;
+    b.x = -b.x;
+    b.y = -b.y;
+    b.z = -b.z;
   }
+  motion_ = std::make_shared<const Motion>(std::move(motion));
 }
 
 Transform AnimatedTransform::at(double time) const {
-  if (!animated_ || time <= startTime_) return start_;
-  if (time >= endTime_) return end_;
-  const double u = (time - startTime_) / (endTime_ - startTime_);
+  if (!motion_ || time <= motion_->startTime) return *start_;
+  if (time >= motion_->endTime) return motion_->end;
+  const double u = (time - motion_->startTime) / (motion_->endTime - motion_->startTime);
+  const Parts &a = motion_->a, &b = motion_->b;
 
-  const double cosine = std::min(1.0, a_.w * b_.w + a_.x * b_.x + a_.y * b_.y + a_.z * b_.z);
+  const double cosine = std::min(1.0, a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z);
   const double theta = std::acos(cosine);
   double fa = 1 - u, fb = u;
   if (theta > 1e-6) {  // below, slerp equals lerp to rounding
     fa = std::sin((1 - u) * theta) / std::sin(theta);
     fb = std::sin(u * theta) / std::sin(theta);
   }
-  double w = fa * a_.w + fb * b_.w, x = fa * a_.x + fb * b_.x, y = fa * a_.y + fb * b_.y,
-         z = fa * a_.z + fb * b_.z;
+  double w = fa * a.w + fb * b.w, x = fa * a.x + fb * b.x, y = fa * a.y + fb * b.y, z = fa * a.z + fb * b.z;
   const double norm = std::sqrt(w * w + x * x + y * y + z * z);
   w /= norm;
   x /= norm;
@@ -119,28 +127,28 @@ Transform AnimatedTransform::at(double time) const {
                            {0, 0, 0, 1}}}};
   Matrix4 stretch;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j)
-      stretch.m[i][j] = (1 - u) * a_.stretch.m[i][j] + u * b_.stretch.m[i][j];
+    for (std::size_t j = 0; j < 3; ++j) stretch.m[i][j] = (1 - u) * a.stretch.m[i][j] + u * b.stretch.m[i][j];
   }
-  const Vec3d t = (1 - u) * a_.translation + u * b_.translation;
+  const Vec3d t = (1 - u) * a.translation + u * b.translation;
   return Transform::translate(t) * Transform(rotation * stretch);
 }
 
 Bounds3f AnimatedTransform::motionBounds(const Bounds3f& b) const {
-  if (!animated_) return start_.bounds(b);
+  if (!motion_) return start_->bounds(b);
   Bounds3f r;
   if (b.isEmpty()) return r;
-  if (!(startTime_ < endTime_)) {  // a jump: never between the two
-    r = start_.bounds(b);
-    r.expand(end_.bounds(b));
+  const double startTime = motion_->startTime, endTime = motion_->endTime;
+  if (!(startTime < endTime)) {  // a jump: never between the two
+    r = start_->bounds(b);
+    r.expand(motion_->end.bounds(b));
     return r;
   }
   float step = 0;  // largest move of a corner between two neighbouring times
   for (int i = 0; i < 8; ++i) {
-    Point3f last = start_.point(b.corner(i));
+    Point3f last = start_->point(b.corner(i));
     r.expand(last);
     for (int k = 1; k <= kMotionSteps; ++k) {
-      const Transform t = at(startTime_ + (endTime_ - startTime_) * k / kMotionSteps);
+      const Transform t = at(startTime + (endTime - startTime) * k / kMotionSteps);
       const Point3f p = t.point(b.corner(i));
       r.expand(p);
       step = std::max(step, distance(p, last));

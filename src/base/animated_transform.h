@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <memory>
+
 #include "base/transform.h"
 
 namespace pbrtmedia {
@@ -8,15 +10,16 @@ namespace pbrtmedia {
 /// A transform at two times. Each matrix is split as T·R·S (R by polar decomposition); translation and S are
 /// interpolated linearly, R by quaternion slerp along the shorter arc; outside the interval the end matrices
 /// hold (scene-language reference 6.3). Immutable after construction, so safe to share between threads.
+/// Copies share what they hold.
 class AnimatedTransform {
  public:
-  AnimatedTransform() = default;  ///< identity, not animated
-  explicit AnimatedTransform(const Transform& fixed) : start_(fixed), end_(fixed) {}
+  AnimatedTransform();  ///< identity, not animated
+  explicit AnimatedTransform(const Transform& fixed) : start_(std::make_shared<const Transform>(fixed)) {}
   AnimatedTransform(const Transform& start, double startTime, const Transform& end, double endTime);
 
-  bool isAnimated() const { return animated_; }
-  const Transform& start() const { return start_; }
-  const Transform& end() const { return end_; }
+  bool isAnimated() const { return motion_ != nullptr; }
+  const Transform& start() const { return *start_; }
+  const Transform& end() const { return motion_ ? motion_->end : *start_; }
   Transform at(double time) const;
   /// A box that holds `b` mapped by every transform of the interval: exact when not animated, otherwise the
   /// union over a dense set of times grown by the distance a corner can move between two of them.
@@ -29,11 +32,14 @@ class AnimatedTransform {
     Matrix4 stretch;
   };
   static Parts decompose(const Matrix4& m);
+  struct Motion {
+    Transform end;
+    double startTime, endTime;
+    Parts a, b;  ///< of the start and of the end
+  };
 
-  Transform start_, end_;
-  double startTime_ = 0, endTime_ = 1;
-  bool animated_ = false;
-  Parts a_, b_;
+  std::shared_ptr<const Transform> start_;  ///< never null
+  std::shared_ptr<const Motion> motion_;    ///< null: none
 };
 
 }  // namespace pbrtmedia

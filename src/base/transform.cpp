@@ -4,6 +4,25 @@
 #include <cmath>
 
 namespace pbrtmedia {
+namespace {
+
+/// With the homogeneous division.
+Vec3d mappedPoint(const Matrix4& matrix, Vec3d p) {
+  const auto& m = matrix.m;
+  const Vec3d q{m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
+                m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z + m[1][3],
+                m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]};
+  const double w = m[3][0] * p.x + m[3][1] * p.y + m[3][2] * p.z + m[3][3];
+  return w == 1 ? q : q / w;
+}
+
+Vec3d mappedVector(const Matrix4& matrix, Vec3d v) {
+  const auto& m = matrix.m;
+  return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+          m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
+}
+
+}  // namespace
 
 Matrix4 operator*(const Matrix4& a, const Matrix4& b) {
   Matrix4 r;
@@ -122,20 +141,10 @@ Transform operator*(const Transform& a, const Transform& b) {
   return r;
 }
 
-Vec3d Transform::point(Vec3d p) const {
-  const auto& m = m_.m;
-  const Vec3d q{m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
-                m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z + m[1][3],
-                m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]};
-  const double w = m[3][0] * p.x + m[3][1] * p.y + m[3][2] * p.z + m[3][3];
-  return w == 1 ? q : q / w;
-}
-
-Vec3d Transform::vector(Vec3d v) const {
-  const auto& m = m_.m;
-  return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-          m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
-}
+Vec3d Transform::point(Vec3d p) const { return mappedPoint(m_, p); }
+Vec3d Transform::inversePoint(Vec3d p) const { return mappedPoint(inv_, p); }
+Vec3d Transform::vector(Vec3d v) const { return mappedVector(m_, v); }
+Vec3d Transform::inverseVector(Vec3d v) const { return mappedVector(inv_, v); }
 
 Vec3d Transform::normal(Vec3d n) const {
   const auto& m = inv_.m;

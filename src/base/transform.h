@@ -66,6 +66,9 @@ class Transform {
   RayDifferential ray(const RayDifferential& r) const;
   /// Box around the mapped corners.
   Bounds3f bounds(const Bounds3f& b) const;
+  // Those of the inverse, which need not be made.
+  Vec3d inversePoint(Vec3d p) const;
+  Vec3d inverseVector(Vec3d v) const;
 
  private:
   bool singular_ = false;  // before inv_, whose initialiser sets it

@@ -293,8 +293,10 @@ void WorldBuilder::placeObjects(SceneBuilder& builder) {
                                [&] { return builder.addObject(std::move(primitives)); });
   }
   if (left > 0) report_.push_back(std::to_string(left) + " objects are never placed: left out");
-  for (const InstanceDescription& instance : scene_.instances) {
-    if (instance.parent == kNone) placeInstance(builder, instance, TransformPair{});
+  for (InstanceDescription& instance : scene_.instances) {
+    if (instance.parent != kNone) continue;
+    placeInstance(builder, instance, TransformPair{});
+    instance.ctm.reset();  // there may be many, and each is placed once
   }
 }
 

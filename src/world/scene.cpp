@@ -10,14 +10,10 @@ namespace pbrtmedia {
 
 Placement::Placement(std::uint32_t object, const AnimatedTransform& worldFromObject,
                      const Transform& mediaFromObject)
-    : object_(object),
-      worldFromObject_(worldFromObject),
-      mediaFromObject_(mediaFromObject),
-      objectFromWorld_(worldFromObject.start().inverse()),
-      mediaFromWorld_(mediaFromObject * objectFromWorld_) {}
-
-Transform Placement::objectFromWorld(double time) const {
-  return worldFromObject_.isAnimated() ? worldFromObject_.at(time).inverse() : objectFromWorld_;
+    : object_(object), worldFromObject_(worldFromObject) {
+  if (mediaFromObject.isIdentity()) return;
+  mediaSpace_ = std::make_unique<const MediaSpace>(
+      MediaSpace{mediaFromObject, mediaFromObject * worldFromObject.start().inverse()});
 }
 
 Bounds3f Placement::worldBounds(const Bounds3f& object) const {
@@ -25,15 +21,23 @@ Bounds3f Placement::worldBounds(const Bounds3f& object) const {
 }
 
 Transform Placement::mediaFromWorld(double time) const {
-  return worldFromObject_.isAnimated() ? mediaFromObject_ * objectFromWorld(time) : mediaFromWorld_;
+  if (mediaSpace_ && !isAnimated()) return mediaSpace_->fromWorld;
+  const Transform objectFromWorld = worldFromObject_.at(time).inverse();
+  return mediaSpace_ ? mediaSpace_->fromObject * objectFromWorld : objectFromWorld;
 }
 
 Segment Placement::toObject(const Segment& s, float time) const {
-  if (!worldFromObject_.isAnimated()) {
-    return {mediaFromWorld_.point(s.o), mediaFromWorld_.vector(s.d), s.tMin, s.tMax};
+  if (isAnimated()) {
+    const Transform m = mediaFromWorld(double{time});
+    return {m.point(s.o), m.vector(s.d), s.tMin, s.tMax};
   }
-  const Transform m = mediaFromWorld(double{time});
-  return {m.point(s.o), m.vector(s.d), s.tMin, s.tMax};
+  if (mediaSpace_) {
+    const Transform& m = mediaSpace_->fromWorld;
+    return {m.point(s.o), m.vector(s.d), s.tMin, s.tMax};
+  }
+  const Transform& worldFromObject = worldFromObject_.start();
+  return {Point3f(worldFromObject.inversePoint(Vec3d(s.o))),
+          Vector3f(worldFromObject.inverseVector(Vec3d(s.d))), s.tMin, s.tMax};
 }
 
 Scene::Scene(std::unique_ptr<Parts> parts)
@@ -134,9 +138,10 @@ SurfaceInteraction Scene::surface(const SceneHit& hit, const Ray& ray) const {
     si.primitive = hit.hit.id;
     return si;
   }
-  const Ray rayObject = hit.placement->objectFromWorld(ray.time).ray(ray);
-  SurfaceInteraction si = transformInteraction(hit.placement->worldFromObject(ray.time),
-                                               hit.primitive->shape->interaction(hit.hit, rayObject));
+  const Transform worldFromObject = hit.placement->worldFromObject(ray.time);
+  const Ray rayObject = worldFromObject.inverse().ray(ray);
+  SurfaceInteraction si =
+      transformInteraction(worldFromObject, hit.primitive->shape->interaction(hit.hit, rayObject));
   si.primitive = hit.hit.id;
   return si;
 }

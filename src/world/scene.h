@@ -32,20 +32,22 @@ class Placement {
   std::uint32_t object() const { return object_; }
   bool isAnimated() const { return worldFromObject_.isAnimated(); }
   Transform worldFromObject(double time) const { return worldFromObject_.at(time); }
-  Transform objectFromWorld(double time) const;
   /// World bounds, over all times, of a box of the object.
   Bounds3f worldBounds(const Bounds3f& object) const;
-  const Transform& mediaFromObject() const { return mediaFromObject_; }
+  Transform mediaFromObject() const { return mediaSpace_ ? mediaSpace_->fromObject : Transform(); }
   Transform mediaFromWorld(double time) const;
   /// The same line in the space in which the object's media were defined; t keeps its meaning as a world
   /// length.
   Segment toObject(const Segment& segmentWorld, float time) const;
 
  private:
+  struct MediaSpace {
+    Transform fromObject;
+    Transform fromWorld;  ///< at the start time
+  };
   std::uint32_t object_;
   AnimatedTransform worldFromObject_;
-  Transform mediaFromObject_;
-  Transform objectFromWorld_, mediaFromWorld_;  ///< of the start time
+  std::unique_ptr<const MediaSpace> mediaSpace_;  ///< null: that of the object
 };
 
 /// A hit with the things it refers to. The surface point itself is computed on demand (Scene::surface).
