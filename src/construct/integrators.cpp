@@ -87,6 +87,8 @@ IntegratorPlan readVolPath(ParamReader& in, const ConstructOptions&) {
   p.mediumLightSampling = findAlternative<MediumLightSampling>(samplings[sampling]).value();
   constexpr std::array<std::string_view, 3> kChannels = {"auto", "shared", "split"};
   p.channelSampling = findOwnEnum(in, "channelsampling", kChannels, ChannelSampling::Auto);
+  constexpr std::array<std::string_view, 4> kTransmittances = {"none", "bounds", "independent", "joint"};
+  p.misTransmittance = findOwnEnum(in, "mistransmittance", kTransmittances, MisTransmittance::None);
   return {[=](const Scene& scene, CameraMedium cameraMedium) -> std::unique_ptr<Integrator> {
             return std::make_unique<VolPathIntegrator>(
                 scene, p, selectorFor(scene.illuminants(), scene, p.lightSampleStrategy),

@@ -14,6 +14,7 @@
 #include "freeflight/flight_sample.h"
 #include "transmittance/any_estimator.h"
 #include "transmittance/estimate.h"
+#include "transmittance/paired_estimate.h"
 #include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
@@ -41,6 +42,11 @@ class DensityKernel {
                                const AnyEstimator& estimator, SampleStream& stream) const = 0;
   virtual Estimate<3> estimate(const ClippedLine& line, const Channels<3>& sigmaT,
                                const AnyEstimator& estimator, SampleStream& stream) const = 0;
+  /// Only where the estimator's traits say tellsSpread.
+  virtual PairedEstimate<1> paired(const ClippedLine& line, const Channels<1>& sigmaT,
+                                   const AnyEstimator& estimator, SampleStream& stream) const = 0;
+  virtual PairedEstimate<3> paired(const ClippedLine& line, const Channels<3>& sigmaT,
+                                   const AnyEstimator& estimator, SampleStream& stream) const = 0;
   virtual FlightSample<1> fly(const ClippedLine& line, const FlightQuery<1>& query, const AnyFlight& flights,
                               SampleStream& stream) const = 0;
   virtual FlightSample<3> fly(const ClippedLine& line, const FlightQuery<3>& query, const AnyFlight& flights,

@@ -30,6 +30,14 @@ class FieldKernel final : public DensityKernel {
                        SampleStream& stream) const override {
     return estimateBy(line, sigmaT, estimator, stream);
   }
+  PairedEstimate<1> paired(const ClippedLine& line, const Channels<1>& sigmaT, const AnyEstimator& estimator,
+                           SampleStream& stream) const override {
+    return pairedBy(line, sigmaT, estimator, stream);
+  }
+  PairedEstimate<3> paired(const ClippedLine& line, const Channels<3>& sigmaT, const AnyEstimator& estimator,
+                           SampleStream& stream) const override {
+    return pairedBy(line, sigmaT, estimator, stream);
+  }
   FlightSample<1> fly(const ClippedLine& line, const FlightQuery<1>& query, const AnyFlight& flights,
                       SampleStream& stream) const override {
     return flyBy(line, query, flights, stream);
@@ -76,6 +84,12 @@ class FieldKernel final : public DensityKernel {
                          SampleStream& stream) const {
     return visitEstimator(
         [&, on = on(line)](const auto& estimator) { return estimateOn(estimator, on, sigmaT, stream); }, any);
+  }
+  template <std::size_t N>
+  PairedEstimate<N> pairedBy(const ClippedLine& line, const Channels<N>& sigmaT, const AnyEstimator& any,
+                             SampleStream& stream) const {
+    return visitEstimator(
+        [&, on = on(line)](const auto& estimator) { return pairedOn(estimator, on, sigmaT, stream); }, any);
   }
   template <std::size_t N>
   FlightSample<N> flyBy(const ClippedLine& line, const FlightQuery<N>& query, const AnyFlight& any,

@@ -73,6 +73,7 @@ FieldMedium::FieldMedium(const FieldMediumParams& params, std::string_view typeN
                                                    .sigmaT = static_cast<double>(sigmaT_.max()),
                                                    .provenBounds = kernel_->bounds().areProven(),
                                                    .batchedLookups = kernel_->hasBatches()});
+  tellsSpread_ = traitsOf(estimator_).tellsSpread;
   law_ = lawOf(estimator_);
   isExponential_ = std::holds_alternative<ExponentialLaw>(law_);
   if (!isExponential_) collisions_ = collisionEstimatorOf(estimator_);
@@ -102,6 +103,20 @@ Rgb FieldMedium::transmittance(const Segment& segment, PixelStream random, Rende
   if (!line) return Rgb(1.0f);
   explore(*line, random, counters);
   return dimmed(*line, segment, random, counters);
+}
+
+PairedTransmittance FieldMedium::pairedTransmittance(const Segment& segment, PixelStream random,
+                                                     RenderCounters& counters) const {
+  if (!tellsSpread_) return Medium::pairedTransmittance(segment, random, counters);
+  if (hasNaN(segment)) return {kNaN, Rgb()};
+  const auto line = lineOf(segment);
+  if (!line) return {};
+  explore(*line, random, counters);
+  if (line->isRefined() && isExponential_) [[unlikely]]
+    return {dimmedOrOpaque(*line, segment, random, counters), Rgb()};
+  const Rgb sigmaT = trackedSigmaT();
+  return sigmaT.isGrey() ? paired(*line, segment, Channels<1>{sigmaT.r}, random, counters)
+                         : paired(*line, segment, channelsOf(sigmaT), random, counters);
 }
 
 FreeFlight FieldMedium::sampleFreeFlight(const Segment& segment, Rgb throughput, PixelStream random,
@@ -314,9 +329,8 @@ Rgb FieldMedium::dimmedOrOpaque(const ClippedLine& line, const Segment& segment,
   return result;
 }
 
-template <std::size_t N>
-Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const AnyEstimator& estimator,
-                          const Channels<N>& sigmaT, PixelStream random, RenderCounters& counters) const {
+template <class F>
+auto FieldMedium::withEstimateStream(PixelStream random, const F& f) const {
   if (PixelSample* const pixel = random.sample();
       pixel != nullptr && samplingPattern_ != PatternKind::Independent && pixel->index < pixel->count &&
       pixel->count <= std::numeric_limits<std::uint32_t>::max()) {
@@ -324,18 +338,31 @@ Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const
     const SamplingPattern pattern(samplingPattern_, static_cast<std::uint32_t>(pixel->count),
                                   hashCombine(pixel->key, pixel->estimates++));
     SampleStream stream(random.rng(), pattern, static_cast<std::uint32_t>(pixel->index));
-    return estimate(line, segment, estimator, sigmaT, stream, counters);
+    return f(stream);
   }
   SampleStream stream(random.rng());
-  return estimate(line, segment, estimator, sigmaT, stream, counters);
+  return f(stream);
 }
 
 template <std::size_t N>
 Rgb FieldMedium::estimate(const ClippedLine& line, const Segment& segment, const AnyEstimator& estimator,
-                          const Channels<N>& sigmaT, SampleStream& stream, RenderCounters& counters) const {
-  const Estimate<N> result = kernel_->estimate(line, sigmaT, estimator, stream);
-  count(line, segment, result.tally, counters);
-  return toRgb(result.value);
+                          const Channels<N>& sigmaT, PixelStream random, RenderCounters& counters) const {
+  return withEstimateStream(random, [&](SampleStream& stream) {
+    const Estimate<N> result = kernel_->estimate(line, sigmaT, estimator, stream);
+    count(line, segment, result.tally, counters);
+    return toRgb(result.value);
+  });
+}
+
+template <std::size_t N>
+PairedTransmittance FieldMedium::paired(const ClippedLine& line, const Segment& segment,
+                                        const Channels<N>& sigmaT, PixelStream random,
+                                        RenderCounters& counters) const {
+  return withEstimateStream(random, [&](SampleStream& stream) {
+    const PairedEstimate<N> result = kernel_->paired(line, sigmaT, estimator_, stream);
+    count(line, segment, result.tally, counters);
+    return PairedTransmittance{toRgb(result.value), toRgb(result.spread)};
+  });
 }
 
 template <std::size_t N>

@@ -26,6 +26,8 @@ class FieldMedium final : public Medium {
 
   /// A segment with a NaN gives NaN, so that the sample is dropped and counted where such are.
   Rgb transmittance(const Segment& segment, PixelStream random, RenderCounters& counters) const override;
+  PairedTransmittance pairedTransmittance(const Segment& segment, PixelStream random,
+                                          RenderCounters& counters) const override;
   FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, PixelStream random,
                               RenderCounters& counters) const override;
   MediumPoint at(Point3f p, RenderCounters& counters) const override;
@@ -95,8 +97,11 @@ class FieldMedium final : public Medium {
   Rgb estimate(const ClippedLine& line, const Segment& segment, const AnyEstimator& estimator,
                const Channels<N>& sigmaT, PixelStream random, RenderCounters& counters) const;
   template <std::size_t N>
-  Rgb estimate(const ClippedLine& line, const Segment& segment, const AnyEstimator& estimator,
-               const Channels<N>& sigmaT, SampleStream& stream, RenderCounters& counters) const;
+  PairedTransmittance paired(const ClippedLine& line, const Segment& segment, const Channels<N>& sigmaT,
+                             PixelStream random, RenderCounters& counters) const;
+  /// Calls `f` with the numbers of the sample's next estimate.
+  template <class F>
+  auto withEstimateStream(PixelStream random, const F& f) const;
 
   /// Collisions weigh extinction, not scattering.
   template <std::size_t N>
@@ -117,6 +122,7 @@ class FieldMedium final : public Medium {
   Rgb sigmaS_, sigmaT_, albedo_;
   bool isAuto_;  ///< the estimator
   AnyEstimator estimator_;
+  bool tellsSpread_;  ///< the estimator
   AnyLaw law_;
   bool isExponential_;
   CollisionEstimator collisions_;  ///< for emission under another law

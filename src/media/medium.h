@@ -12,6 +12,7 @@
 #include "base/pixel_stream.h"
 #include "base/segment.h"
 #include "base/statistics.h"
+#include "media/paired_transmittance.h"
 #include "spectrum/rgb.h"
 
 namespace pbrtmedia {
@@ -82,6 +83,11 @@ class Medium {
   /// Unbiased estimate of exp(-∫ sigma_t dt) per channel over the segment; may leave [0, 1] where the
   /// estimator's traits say so. Zero length: exactly 1.
   virtual Rgb transmittance(const Segment& segment, PixelStream random, RenderCounters& counters) const = 0;
+  /// The same estimate with what it knows of its own noise, for as many look-ups.
+  virtual PairedTransmittance pairedTransmittance(const Segment& segment, PixelStream random,
+                                                  RenderCounters& counters) const {
+    return {transmittance(segment, random, counters), Rgb()};
+  }
   /// Samples where the next real collision lies. Random numbers are drawn on the way: with the same numbers,
   /// the flight over a shorter segment with the same start takes the same steps up to its end, and passes
   /// when the longer one collides beyond it. (Overlapping media rely on it.)

@@ -6,6 +6,7 @@
 
 #include "fields/density_line.h"
 #include "transmittance/estimate.h"
+#include "transmittance/paired_estimate.h"
 #include "transmittance/sample_stream.h"
 
 namespace pbrtmedia {
@@ -19,6 +20,18 @@ Estimate<N> estimateOn(const Estimator& estimator, const Line& line, const Chann
     return estimator(line, sigmaT, stream);
   } else {
     throw std::logic_error("this estimator needs a line in cubic pieces");
+  }
+}
+
+/// The same with its spread. An estimator whose traits do not say tellsSpread must not be asked:
+/// std::logic_error.
+template <class Estimator, DensityLine Line, std::size_t N>
+PairedEstimate<N> pairedOn(const Estimator& estimator, const Line& line, const Channels<N>& sigmaT,
+                           SampleStream& stream) {
+  if constexpr (requires { estimator.paired(line, sigmaT, stream); }) {
+    return estimator.paired(line, sigmaT, stream);
+  } else {
+    throw std::logic_error("this estimator does not tell its spread");
   }
 }
 

@@ -35,6 +35,7 @@ struct EstimatorTraits {
   bool finiteVarianceUnbounded = true;  ///< under a control too low by any factor, on a finite line
   bool boundedCost = false;             ///< lookups of one estimate have an upper limit
   bool needsPieces = false;             ///< asks for a PiecewiseCubicLine (fields/density_line.h)
+  bool tellsSpread = false;             ///< has a member `paired`, which tells the noise (PairedEstimate)
   LawSet laws = LawSet::exponential();
 };
 

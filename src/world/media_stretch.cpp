@@ -23,6 +23,15 @@ Rgb MediaStretch::transmittance(PixelStream random, RenderCounters& counters) co
   return product;
 }
 
+PairedTransmittance MediaStretch::pairedTransmittance(PixelStream random, RenderCounters& counters) const {
+  PairedTransmittance product;
+  for (std::size_t i = 0; i < state_->activeCount() && !product.isBlack(); ++i) {
+    const PlacedMedium m = state_->active(i);
+    product *= m.medium->pairedTransmittance(segmentIn(m), random, counters);
+  }
+  return product;
+}
+
 MediumFlight MediaStretch::sampleFreeFlight(Rgb throughput, PixelStream random,
                                             RenderCounters& counters) const {
   if (state_->isVacuum()) return {};

@@ -38,6 +38,8 @@ class MediaStretch {
 
   /// Unbiased estimate of the transmittance of all active media, their product. Stops as soon as it is black.
   Rgb transmittance(PixelStream random, RenderCounters& counters) const;
+  /// The same with what the media know of its noise.
+  PairedTransmittance pairedTransmittance(PixelStream random, RenderCounters& counters) const;
   /// The nearest of independent free flights through the active media, weighted by what the other media let
   /// through up to there.
   /// `throughput`: of the path so far (Medium::sampleFreeFlight).

@@ -141,23 +141,59 @@ void visitShadowEmission(const MediaWalk::Context& context, const ShadowRay& sha
       });
 }
 
-Rgb shadowTransmittance(const MediaWalk::Context& context, const ShadowRay& shadow, MediumState& state,
-                        PixelStream random) {
+/// Walks along a shadow ray. `pass(stretch)`: goes through a stretch of media, and tells whether anything is
+/// left. False: nothing is left, or something is in the way.
+template <class Pass>
+static bool walkToLight(const MediaWalk::Context& context, const ShadowRay& shadow, MediumState& state,
+                        const Pass& pass) {
   MediaWalk walk(context, state, LineWalk(context.scene, shadow.ray, shadow.exclusions), shadow.from);
   const auto blocks = [&](const SceneHit& h) { return h.primitive->material || h.isHider(shadow.hider); };
-  Rgb product(1.0f);
   for (;;) {
     const SceneHit* const nearest = walk.ahead();
-    if (nearest && blocks(*nearest)) return {};
-    if (!state.isVacuum()) {
-      product *= walk.stretch().transmittance(random, context.counters);
-      if (product.isBlack()) return product;
-    }
+    if (nearest && blocks(*nearest)) return false;
+    if (!state.isVacuum() && !pass(walk.stretch())) return false;
     const std::optional<SceneHit> hit = walk.next();
-    if (!hit) return product;
-    if (blocks(*hit)) return {};
+    if (!hit) return true;
+    if (blocks(*hit)) return false;
     walk.cross(*hit);
   }
+}
+
+Rgb shadowTransmittance(const MediaWalk::Context& context, const ShadowRay& shadow, MediumState& state,
+                        PixelStream random) {
+  Rgb product(1.0f);
+  const bool arrives = walkToLight(context, shadow, state, [&](const MediaStretch& stretch) {
+    product *= stretch.transmittance(random, context.counters);
+    return !product.isBlack();
+  });
+  return arrives ? product : Rgb();
+}
+
+ControlledTransmittance controlledShadowTransmittance(const MediaWalk::Context& context,
+                                                      const ShadowRay& shadow, MediumState& state,
+                                                      PixelStream random) {
+  ControlledTransmittance through{Rgb(1.0f), Rgb()};
+  const bool arrives = walkToLight(context, shadow, state, [&](const MediaStretch& stretch) {
+    through.value *= stretch.transmittance(random, context.counters);
+    through.controlDepth += stretch.control().depth;
+    return !through.value.isBlack();
+  });
+  return arrives ? through : ControlledTransmittance();
+}
+
+void dimByShadow(const MediaWalk::Context& context, const ShadowRay& shadow, MediumState& state,
+                 PixelStream random, std::span<PairedTransmittance> estimates) {
+  const bool arrives = walkToLight(context, shadow, state, [&](const MediaStretch& stretch) {
+    bool isLeft = false;
+    for (PairedTransmittance& estimate : estimates) {
+      if (estimate.isBlack()) continue;
+      estimate *= stretch.pairedTransmittance(random, context.counters);
+      isLeft |= !estimate.isBlack();
+    }
+    return isLeft;
+  });
+  if (arrives) return;
+  for (PairedTransmittance& estimate : estimates) estimate = {Rgb(), Rgb()};
 }
 
 }  // namespace pbrtmedia

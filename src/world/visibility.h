@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <span>
 
 #include "lights/light.h"
+#include "media/paired_transmittance.h"
 #include "spectrum/rgb.h"
 #include "world/media_walk.h"
 #include "world/scatter_point.h"
@@ -46,5 +48,17 @@ void visitShadowEmission(const MediaWalk::Context& context, const ShadowRay& sha
 /// (closest hits are searched). `state` is then that of the far end.
 Rgb shadowTransmittance(const MediaWalk::Context& context, const ShadowRay& shadow, MediumState& state,
                         PixelStream random);
+
+/// The same, and the optical depth that the media's controls give of the way (MediaStretch::control).
+struct ControlledTransmittance {
+  Rgb value, controlDepth;
+};
+ControlledTransmittance controlledShadowTransmittance(const MediaWalk::Context& context,
+                                                      const ShadowRay& shadow, MediumState& state,
+                                                      PixelStream random);
+
+/// The same with what the media know of its noise: multiplies each of `estimates` by an independent one.
+void dimByShadow(const MediaWalk::Context& context, const ShadowRay& shadow, MediumState& state,
+                 PixelStream random, std::span<PairedTransmittance> estimates);
 
 }  // namespace pbrtmedia

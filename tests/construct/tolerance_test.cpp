@@ -282,7 +282,7 @@ TEST(Tolerance, UnknownWordsOfOwnParametersStayErrors) {
     const Attempt a = with(inSphere(grid + "\"string " + p + "\" \"nonsense\""));
     EXPECT_TRUE(a.failsWith("nonsense")) << p << a.messages();
   }
-  for (const std::string p : {"mediumlightsampling", "channelsampling"}) {
+  for (const std::string p : {"mediumlightsampling", "channelsampling", "mistransmittance"}) {
     EXPECT_TRUE(attemptWorld(kBall, {}, "Integrator \"volpath\" \"string " + p + "\" \"nonsense\"")
                     .failsWith("nonsense"))
         << p;
@@ -327,7 +327,7 @@ TEST(Tolerance, OwnParametersThatDoNotFitTheirTypeStayErrors) {
     EXPECT_TRUE(a.failsWith(c.found)) << c.parameters << a.messages();
     EXPECT_EQ(a.diagnostics.errorCount(), 1u) << c.parameters << a.messages();
   }
-  for (const std::string p : {"mediumlightsampling", "channelsampling"}) {
+  for (const std::string p : {"mediumlightsampling", "channelsampling", "mistransmittance"}) {
     const Attempt a = attemptWorld(kBall, {}, "Integrator \"volpath\" \"bool " + p + "\" \"true\"");
     EXPECT_TRUE(a.failsWith("parameter \"" + p + "\": found type bool, expected string")) << a.messages();
   }

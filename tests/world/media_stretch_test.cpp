@@ -78,5 +78,38 @@ TEST(MediaStretch, WeighsCollisionsByWhatOtherMediaLetThrough) {
   }
 }
 
+/// Two media in one another: the noise that each tells makes that of both.
+TEST(MediaStretch, PairsOfMediaMultiplyAsComplexNumbers) {
+  const HomogeneousMedium fog(HomogeneousMedium::Params{.name = "fog",
+                                                        .sigmaA = Rgb(0),
+                                                        .sigmaS = Rgb(kScattering),
+                                                        .phase = {PhaseLobe{}},
+                                                        .overlap = {OverlapRule::Mode::Add, 0}});
+  const Ray ray{.o = {0, .3f, .4f}, .d = {1, .1f, 0}};
+  RenderCounters counters;
+  for (const auto& [estimator, tells] : {std::pair("two-comb-umvu", true), std::pair("ratio", false)}) {
+    const auto smoke = absorber(estimator, PatternKind::Independent);
+    MediumState state(PlacedMedium{smoke.get()});
+    Rng alone(kSeed), paired(kSeed), together(kSeed);
+    RenderCounters ofOne, ofPair;
+    const Rgb value = MediaStretch(state, ray, 0, 1).transmittance(alone, ofOne);
+    const PairedTransmittance one = MediaStretch(state, ray, 0, 1).pairedTransmittance(paired, ofPair);
+    EXPECT_EQ(one.value, value) << estimator;
+    EXPECT_EQ(ofPair.densityLookups, ofOne.densityLookups) << estimator;
+    EXPECT_EQ(!one.spread.isBlack(), tells) << estimator;
+    state.enter({&fog});
+    const PairedTransmittance both = MediaStretch(state, ray, 0, 1).pairedTransmittance(together, counters);
+    const float through = std::exp(-kScattering);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(both.value[c], through * one.value[c], 1e-6) << estimator;
+      EXPECT_NEAR(both.spread[c], through * one.spread[c], 1e-6) << estimator;
+    }
+  }
+  PairedTransmittance product{Rgb(.5f), Rgb(.25f)};
+  product *= {Rgb(.5f), Rgb(-.5f)};
+  EXPECT_EQ(product.value, Rgb(.375f));
+  EXPECT_EQ(product.spread, Rgb(-.125f));
+}
+
 }  // namespace
 }  // namespace pbrtmedia

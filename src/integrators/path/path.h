@@ -18,14 +18,24 @@ enum class ChannelSampling {
   Split    ///< a path for each from where it first meets such a medium
 };
 
+/// What the weights between light samples and scattered directions know of the media on the way
+/// (TransmittanceShares).
+enum class MisTransmittance {
+  None,         ///< nothing
+  Bounds,       ///< what the bounds of media say of their optical depth, without look-ups
+  Independent,  ///< estimates of the transmittance, others than those they multiply
+  Joint         ///< the same estimates
+};
+
 /// Parameters that `path` and `volpath` share (scene-language reference 11.1, 11.2).
 struct PathParams {
   int maxDepth = 5;       ///< scattering vertices of a path; 0: visible emission only
   float rrThreshold = 1;  ///< roulette is played on throughputs below it; 0: never
   std::string lightSampleStrategy =
       "spatial";  ///< a word of lightStrategyOfName; for whoever makes the selector
-  MediumLightSampling mediumLightSampling = {};             ///< `volpath` only
-  ChannelSampling channelSampling = ChannelSampling::Auto;  ///< `volpath` only
+  MediumLightSampling mediumLightSampling = {};                ///< `volpath` only
+  ChannelSampling channelSampling = ChannelSampling::Auto;     ///< `volpath` only
+  MisTransmittance misTransmittance = MisTransmittance::None;  ///< `volpath` only
 };
 
 /// Integrator `path`: unidirectional path tracing over surfaces, next-event estimation and multiple

@@ -150,6 +150,8 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, PathEvent& even
   const MediumFlight flight = fly(stretch);
   beta_ *= flight.weight;
   if (beta_.isBlack()) return false;
+  if (!flight.collided && !isDirect_ && knowsTransmittance(bounces_))
+    passed_.push_back({state_, stretch.tMin(), stretch.tMax()});
   // A path that media have dimmed on its way has little part in the variance. What is seen directly stays
   // exact.
   if (!flight.collided) return !(flight.weight.max() < 1) || bounces_ == 0 || playRoulette(/*inMedium=*/true);
@@ -330,6 +332,7 @@ void PathTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane,
   startPlane_ = plane;
   rayStart_ = start;
   from_ = {};
+  passed_.clear();
 }
 
 bool PathTracer::playRoulette(bool inMedium) {

@@ -8,6 +8,7 @@
 #include "integrators/path/path.h"
 #include "integrators/path/path_event.h"
 #include "integrators/path/path_samples.h"
+#include "integrators/path/transmittance_shares.h"
 #include "lighting/light_receiver.h"
 #include "materials/bsdf.h"
 #include "media/phase/phase_function.h"
@@ -103,13 +104,24 @@ class PathTracer {
   Rgb arriving(const PickedLight& light, Point3f p, const Exclusions& start, const MediumState& state,
                const ScatterPoint* from = nullptr);
   void gatherLight(const PickedLight& light, Rgb radiance, RayLayers::Scatterer here);
+  Rgb arrivingShare(const PickedLight& light, Point3f p, const Exclusions& start, const MediumState& state,
+                    float directionPdf, const ScatterPoint* from = nullptr);
   float lightWeight(const PickedLight& light, float directionPdf) const;
+  float comparableDensity(const PickedLight& light) const;
+  bool sharesByTransmittance(const PickedLight& light, float directionPdf) const;
   float collisionShare(std::size_t light, Point3f p) const;
-  float emissionWeight(std::size_t light, const SurfaceInteraction* si) const;
+  Rgb emissionWeight(std::size_t light, const SurfaceInteraction* si);
+  Rgb scatteringShare(const TransmittanceShares& shares);
   float mediumEmissionWeight(const MediumLight& source, std::size_t light) const;
   SurfaceInteraction surfaceAt(const SceneHit& hit) const;
   void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, const Exclusions& start);
   bool seesOnlyEmission() const { return bounces_ >= lastVertex_; }
+  /// Whether weights at a vertex after so many scatterings know the transmittance of what its rays pass. Not
+  /// at the last one: what it looks at is dimmed by estimates, as light samples are, and no flight ends.
+  bool knowsTransmittance(int scatterings) const {
+    return setup_.params.misTransmittance != MisTransmittance::None && setup_.media &&
+           scatterings < lastVertex_;
+  }
 
   const PathSetup& setup_;
   SampleContext& context_;
@@ -137,6 +149,11 @@ class PathTracer {
   bool isDirect_ = true;               ///< camera or perfect specular vertex: emission counts fully
   float directionPdf_ = 0;             ///< solid-angle density of the segment's direction
   LightReceiver receiver_{Point3f()};  ///< what the light sample there was chosen for
+  struct PassedStretch {
+    MediumState state;
+    double tMin, tMax;
+  };
+  std::vector<PassedStretch> passed_;  ///< by the current segment; for weights that know the transmittance
 };
 
 }  // namespace pbrtmedia

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // What a path collects: light samples at its vertices and along its stretches, and what it meets that emits.
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "base/warp.h"
 #include "integrators/path/path_tracer.h"
@@ -93,11 +95,50 @@ Rgb PathTracer::arriving(const PickedLight& light, Point3f p, const Exclusions& 
 /// Share of a light sample; what a direction of that density finds accounts for the rest.
 float PathTracer::lightWeight(const PickedLight& light, float directionPdf) const {
   const auto& lights = setup_.scene.lights();
+  if (light.index < lights.size() && lights[light.index]->isDelta()) return 1;
+  return powerHeuristic(comparableDensity(light), directionPdf);
+}
+
+/// Of a light sample, as what directions find weighs it: without the pick where a light is one of many parts.
+float PathTracer::comparableDensity(const PickedLight& light) const {
+  const auto& lights = setup_.scene.lights();
   const LightSample& s = light.sample;
-  if (light.index >= lights.size()) return powerHeuristic(s.pdf, directionPdf);
-  const Light& source = *lights[light.index];
-  if (source.isDelta()) return 1;
-  return powerHeuristic(source.isSplit() ? s.pdf / light.probability : s.pdf, directionPdf);
+  return light.index < lights.size() && lights[light.index]->isSplit() ? s.pdf / light.probability : s.pdf;
+}
+
+/// Whether `arrivingShare` has to divide the work. Emission of media is found by distances, not by flights.
+bool PathTracer::sharesByTransmittance(const PickedLight& light, float directionPdf) const {
+  const auto& lights = setup_.scene.lights();
+  return knowsTransmittance(bounces_ + 1) && directionPdf > 0 && light.index < lights.size() &&
+         !lights[light.index]->isDelta();
+}
+
+/// What of a light sample's radiance arrives at `p`, times its share.
+Rgb PathTracer::arrivingShare(const PickedLight& light, Point3f p, const Exclusions& start,
+                              const MediumState& state, float directionPdf, const ScatterPoint* from) {
+  const LightSample& s = light.sample;
+  ShadowRay shadow = shadowRayTo(setup_.scene, light.index, s, p, ray_.time, start);
+  shadow.from = from;
+  const TransmittanceShares shares(comparableDensity(light), directionPdf);
+  MediumState end = state;
+  switch (setup_.params.misTransmittance) {
+    case MisTransmittance::Independent: {
+      std::array<PairedTransmittance, 2> through;
+      dimByShadow(shadowContext(), shadow, end, context_.stream(), through);
+      return s.radiance * shares.litThrough(through[0], through[1]);
+    }
+    case MisTransmittance::Joint: {
+      PairedTransmittance through;
+      dimByShadow(shadowContext(), shadow, end, context_.stream(), std::span(&through, 1));
+      return s.radiance * shares.jointLitThrough(through);
+    }
+    case MisTransmittance::None:
+    case MisTransmittance::Bounds:
+      break;
+  }
+  const ControlledTransmittance through =
+      controlledShadowTransmittance(shadowContext(), shadow, end, context_.stream());
+  return s.radiance * through.value * shares.lightShare({exp(-through.controlDepth), Rgb()});
 }
 
 /// Share of a collision's sample of a light at one point; `lightStretch` accounts for the rest.
@@ -129,13 +170,19 @@ void PathTracer::lightSurface(const Bsdf& bsdf) {
   if (f.isBlack()) return;
   const auto& lights = setup_.scene.lights();
   const bool isDelta = light->index < lights.size() && lights[light->index]->isDelta();
-  const float weight = isDelta ? 1 : lightWeight(*light, bsdf.pdf(si.wo, s.wi));
+  const float directionPdf = isDelta ? 0 : bsdf.pdf(si.wo, s.wi);
   MediumState state = state_;
   if (setup_.media) {
     setup_.media->leaveSurface(state, surface_.hit, si, surface_.coincident, s.wi, counters_,
                                context_.mismatches);
   }
   const Exclusions start = surface_.coincident.startingWith(surface_.hit.hit.id);
+  if (sharesByTransmittance(*light, directionPdf)) {
+    gatherLight(*light, beta_ * f * (1 / s.pdf) * arrivingShare(*light, si.p, start, state, directionPdf),
+                RayLayers::Scatterer::Surface);
+    return;
+  }
+  const float weight = isDelta ? 1 : lightWeight(*light, directionPdf);
   gatherLight(*light, beta_ * f * (weight / s.pdf) * arriving(*light, si.p, start, state),
               RayLayers::Scatterer::Surface);
 }
@@ -153,6 +200,12 @@ void PathTracer::lightMedium() {
   const LightSample& s = light->sample;
   const float phase = medium_.phase->evaluate(-ray_.d, s.wi);
   if (!(phase > 0)) return;
+  if (sharesByTransmittance(*light, phase)) {
+    gatherLight(*light,
+                beta_ * (phase / s.pdf) * arrivingShare(*light, medium_.at.p, {}, state_, phase, &medium_.at),
+                RayLayers::Scatterer::Medium);
+    return;
+  }
   const float weight = lightWeight(*light, phase) * collisionShare(light->index, medium_.at.p);
   if (!(weight > 0)) return;
   gatherLight(*light,
@@ -197,14 +250,36 @@ void PathTracer::collectMediumEmission(const MediaStretch& stretch) {
 }
 
 /// Share of the emission found by the current segment; light sampling at its start accounts for the rest.
-float PathTracer::emissionWeight(std::size_t light, const SurfaceInteraction* si) const {
-  if (isDirect_) return 1;
-  if (light == SceneHit::kNoLight) return 0;  // visible, but no source of illumination
+Rgb PathTracer::emissionWeight(std::size_t light, const SurfaceInteraction* si) {
+  if (isDirect_) return Rgb(1);
+  if (light == SceneHit::kNoLight) return Rgb();  // visible, but no source of illumination
   const Light& source = *setup_.scene.lights()[light];
-  if (receiver_.findsUniformLights && source.isUniformInfinite()) return 1;
+  if (receiver_.findsUniformLights && source.isUniformInfinite()) return Rgb(1);
   const float probability = source.isSplit() ? 1 : setup_.selector->probability(receiver_, light);
   const float lightPdf = probability * source.pdf(ray_.o, ray_.d, si);
-  return powerHeuristic(directionPdf_, lightPdf);
+  if (!knowsTransmittance(bounces_)) return Rgb(powerHeuristic(directionPdf_, lightPdf));
+  if (!(lightPdf > 0)) return Rgb(1);
+  return scatteringShare({lightPdf, directionPdf_});
+}
+
+/// Share of what the current segment has found behind the media that it has passed, by bounds or an estimate
+/// that knows nothing of its flights.
+Rgb PathTracer::scatteringShare(const TransmittanceShares& shares) {
+  const auto stretchOf = [&](const PassedStretch& passed) {
+    return MediaStretch(passed.state, ray_, passed.tMin, passed.tMax);
+  };
+  if (setup_.params.misTransmittance == MisTransmittance::Bounds) {
+    Rgb depth;
+    for (const PassedStretch& s : passed_) depth += stretchOf(s).control().depth;
+    return shares.scatteringShare({exp(-depth), Rgb()});
+  }
+  PairedTransmittance through;
+  for (const PassedStretch& s : passed_) {
+    if (through.isBlack()) break;
+    through *= stretchOf(s).pairedTransmittance(context_.stream(), counters_);
+  }
+  return setup_.params.misTransmittance == MisTransmittance::Joint ? shares.jointScatteringShare(through)
+                                                                   : shares.scatteringShare(through);
 }
 
 /// The same for emission of a medium, number `light` of Scene::illuminants().

@@ -83,6 +83,8 @@ void printEstimator(std::ostream& out, std::string_view name) {
       << " Variance: " << (t.finiteVariance ? "finite" : "infinite")
       << "; under a control too low by any factor: " << (t.finiteVarianceUnbounded ? "finite" : "infinite")
       << ".\n";
+  if (t.tellsSpread)
+    out << "- **Noise.** Each estimate tells its own, for `\"string mistransmittance\"` of `volpath`.\n";
   out << "- **Cost.** " << (t.boundedCost ? "Bounded." : "Unbounded.") << "\n";
   out << "- **Laws.** " << sentence(joined(t.laws.names())) << "\n";
   out << "- **Use when** " << t.useWhen << ".\n";

@@ -40,6 +40,7 @@ Json estimatorJson(std::string_view name) {
           {"finiteVariance", t.finiteVariance},
           {"finiteVarianceUnbounded", t.finiteVarianceUnbounded},
           {"boundedCost", t.boundedCost},
+          {"tellsSpread", t.tellsSpread},
           {"laws", t.laws.names()},
           {"parameters", parametersJson(estimator.parameters())}};
 }

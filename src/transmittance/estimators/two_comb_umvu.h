@@ -7,6 +7,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "transmittance/paired_estimate.h"
 #include "transmittance/parts/comb_march.h"
 #include "transmittance/parts/comb_size.h"
 #include "transmittance/traits.h"
@@ -48,14 +49,38 @@ struct TwoCombUmvu {
                 "comb's depth",
             .mayLeaveUnitInterval = true,
             .control = EstimatorTraits::Control::CostOnly,
-            .boundedCost = tupleSize > 0 || maxLookups > 0};
+            .boundedCost = tupleSize > 0 || maxLookups > 0,
+            .tellsSpread = true};
   }
 
   /// Mean e^{E[x]} for two independent normal x1, x2 of one mean and variance.
   static double combine(double x1, double x2) { return std::exp((x1 + x2) / 2) * std::cos((x1 - x2) / 2); }
+  /// The imaginary part of the same exponential, e^{m + i d}, m = (x1 + x2)/2 and d = (x1 - x2)/2: its square
+  /// has the mean E[e^{2m} sin² d] = T² sinh(s²/2) e^{s²/2}, s² the variance of x1, the variance of
+  /// `combine`.
+  static double spread(double x1, double x2) { return std::exp((x1 + x2) / 2) * std::sin((x1 - x2) / 2); }
 
   template <DensityLine Line, std::size_t N>
   Estimate<N> operator()(const Line& line, const Channels<N>& sigmaT, SampleStream& stream) const {
+    return march(line, sigmaT, stream, [](std::size_t, double, double) {});
+  }
+  /// The same estimate, with what its two combs say of its noise. The same look-ups.
+  template <DensityLine Line, std::size_t N>
+  PairedEstimate<N> paired(const Line& line, const Channels<N>& sigmaT, SampleStream& stream) const {
+    PairedEstimate<N> estimate;
+    const Estimate<N> marched = march(line, sigmaT, stream, [&](std::size_t c, double x1, double x2) {
+      estimate.spread[c] = spread(x1, x2);
+    });
+    estimate.value = marched.value;
+    estimate.tally = marched.tally;
+    return estimate;
+  }
+
+ private:
+  /// `note(c, x1, x2)`: is told both estimates of minus the depth in channel `c`.
+  template <DensityLine Line, std::size_t N, class Note>
+  Estimate<N> march(const Line& line, const Channels<N>& sigmaT, SampleStream& stream,
+                    const Note& note) const {
     const auto teethUnder = [&](double control) {
       return tupleSize > 0 ? static_cast<double>(tupleSize) : pSeriesCmfLookups(control) / 2 + 0.5;
     };
@@ -63,7 +88,10 @@ struct TwoCombUmvu {
         line, sigmaT, stream, teethUnder, [&](auto& combs) {
           const double first = combs.integral(), second = combs.integral();
           Channels<N> value;
-          for (std::size_t c = 0; c < N; ++c) value[c] = combine(-sigmaT[c] * first, -sigmaT[c] * second);
+          for (std::size_t c = 0; c < N; ++c) {
+            value[c] = combine(-sigmaT[c] * first, -sigmaT[c] * second);
+            note(c, -sigmaT[c] * first, -sigmaT[c] * second);
+          }
           return value;
         });
   }
