@@ -146,8 +146,10 @@ TEST(EmissionUnderLaws, HotFurnaceIsWhite) {
 /// Always picks the first light, a dark one: emission is found by distances alone.
 class PicksTheDark final : public LightSelector {
  public:
-  Choice choose(Point3f, float) const override { return {0, 1}; }
-  float probability(Point3f, std::size_t light) const override { return light == 0 ? 1.0f : 0.0f; }
+  Choice choose(const LightReceiver&, float) const override { return {0, 1}; }
+  float probability(const LightReceiver&, std::size_t light) const override {
+    return light == 0 ? 1.0f : 0.0f;
+  }
 };
 
 /// What `ray` finds in a scene with and without light samples of the media.
