@@ -26,6 +26,14 @@ TEST(AnimatedTransform, OfEqualEndsIsNotAnimated) {
   EXPECT_TRUE(AnimatedTransform().at(0.5).isIdentity());
 }
 
+TEST(AnimatedTransform, CopiesShareWhatTheyHold) {
+  const AnimatedTransform one(Transform::translate({1, 2, 3})), copy = one, identity, other;
+  EXPECT_EQ(&one.start(), &copy.start());
+  EXPECT_EQ(&one.end(), &one.start()) << "nothing is kept of a motion that is none";
+  EXPECT_EQ(&identity.start(), &other.start());
+  EXPECT_TRUE(identity.start().isIdentity());
+}
+
 TEST(AnimatedTransform, GivesTheEndMatricesAtAndBeyondTheEnds) {
   const Transform s = Transform::rotate(30, {1, 2, 3}) * Transform::scale(1, 2, 3),
                   e = Transform::translate({5, 0, 0});

@@ -31,10 +31,13 @@ class LedFlight {
     rng_ = led_;
   }
   ~LedFlight() {
-    if (wordsOf(rng_) == wordsOf(led_)) rng_ = before_;
+    if (!isTaken()) rng_ = before_;
   }
   LedFlight(const LedFlight&) = delete;
   LedFlight& operator=(const LedFlight&) = delete;
+
+  /// Whether something was drawn.
+  bool isTaken() const { return wordsOf(rng_) != wordsOf(led_); }
 
  private:
   using Words = std::array<std::uint64_t, 4>;

@@ -168,8 +168,10 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, PathEvent& even
 
 MediumFlight PathTracer::fly(const MediaStretch& stretch) {
   if (bounces_ >= kLedBounces) return stretch.sampleFreeFlight(beta_, context_.stream(), counters_);
-  const LedFlight led(context_.rng, context_.pixelSample, ledFlights_++);
-  return stretch.sampleFreeFlight(beta_, context_.stream(), counters_);
+  const LedFlight led(context_.rng, context_.pixelSample, ledFlights_);
+  const MediumFlight flight = stretch.sampleFreeFlight(beta_, context_.stream(), counters_);
+  if (led.isTaken()) ++ledFlights_;  // what is empty has no part in the order
+  return flight;
 }
 
 /// Whether from here on each channel is better followed alone: a path that all share weighs them by the mean
