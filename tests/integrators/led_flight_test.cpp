@@ -40,6 +40,22 @@ TEST(LedFlight, PixelsAndFlightsHaveOrdersOfTheirOwn) {
   EXPECT_NE(firstOf(1, 0), firstOf(1, 1));
 }
 
+TEST(LedFlight, MorePlannedSamplesChangeNoneOfThoseBefore) {
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    Rng few(1), many(1);
+    const LedFlight ledFew(few, sampleOf(3, i, 12), 0), ledMany(many, sampleOf(3, i, 100), 0);
+    EXPECT_EQ(few.next(), many.next()) << i;
+  }
+}
+
+TEST(LedFlight, CountsWhatHasDrawnAlone) {
+  Rng rng(1);
+  LedFlight led(rng, sampleOf(3, 5, 16), 0);
+  EXPECT_FALSE(led.isTaken());
+  rng.next();
+  EXPECT_TRUE(led.isTaken());
+}
+
 TEST(LedFlight, WhatDrawsNothingLeavesTheStreamAsItWas) {
   Rng rng(1), same(1);
   { const LedFlight led(rng, sampleOf(3, 5, 16), 0); }

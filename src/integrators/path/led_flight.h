@@ -24,9 +24,8 @@ class LedFlight {
  public:
   /// `number`: of the flight among those of the sample that are led.
   LedFlight(Rng& rng, const PixelSample& sample, std::uint64_t number) : rng_(rng), before_(rng), led_(rng) {
-    if (sample.count == 0 || sample.count > std::numeric_limits<std::uint32_t>::max()) return;
-    const float u = scrambledVanDerCorput(sample.index, static_cast<std::uint32_t>(sample.count),
-                                          subKey(sample.key, kFirst + number));
+    if (sample.count == 0) return;
+    const float u = scrambledVanDerCorput(sample.index, kAnyCount, subKey(sample.key, kFirst + number));
     led_ = withNext(rng, u);
     rng_ = led_;
   }
@@ -43,6 +42,8 @@ class LedFlight {
   using Words = std::array<std::uint64_t, 4>;
   /// "fly" in ASCII: the estimates of a pixel that share patterns count their keys from 0.
   static constexpr std::uint64_t kFirst = 0x666c79ull << 32;
+  /// However many samples are planned: a render that goes on for longer takes the same ones first.
+  static constexpr std::uint32_t kAnyCount = std::numeric_limits<std::uint32_t>::max();
 
   static Words wordsOf(const Rng& rng) { return std::bit_cast<Words>(rng); }
   /// `rng` with the 24 bits of `u` on top of its next word.
