@@ -44,7 +44,7 @@ constexpr ParityScene kScenes[] = {{"smoke", 16, 16},
                                    {"glass", 16, 32},
                                    {"2d-checkerboard", 16, 32},
                                    {"projection", 16, 128},
-                                   {"spotfog", 16, 64},
+                                   {"spotfog", 8, 64},  // with 16 our noise is far below the reference's
                                    {"killeroo-simple", 8, 32},
                                    {"own-hyperboloid", 16, 16},
                                    {"own-disney", 16, 16},
