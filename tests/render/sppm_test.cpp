@@ -122,7 +122,7 @@ class SppmAgreement : public testing::TestWithParam<SppmScene> {};
 
 TEST_P(SppmAgreement, WithVolpath) {
   const RunningStats truth = means(sceneOf(GetParam(), "\"volpath\" \"integer maxdepth\" 4", 64), 1);
-  const ZTest test = zTest(means(sceneOf(GetParam(), sppm(.06), 8), 100), truth);
+  const ZTest test = zTest(means(sceneOf(GetParam(), sppm(.06), 8), 100, 3 * kSeeds / 2), truth);
   // What photons bring is no small part, and must be right by itself.
   const RunningStats single = means(sceneOf(GetParam(), "\"volpath\" \"integer maxdepth\" 1", 16), 1);
   const double part = 1 - single.mean() / truth.mean();
