@@ -19,6 +19,7 @@ struct AgreementScene {
   std::string view = "";  ///< before the camera
   int maxDepth = 4;
   const char* camera = "\"perspective\" \"float fov\" 40";
+  double tooBright = 1.05;  ///< what a difference of light must not get away with
   friend std::ostream& operator<<(std::ostream& os, const AgreementScene& s) { return os << s.name; }
 };
 
@@ -139,7 +140,7 @@ inline std::vector<AgreementScene> agreementScenes() {
            strands("flat") + "AttributeEnd\n",
        64},
       {"ribbons", kFloor + kLamp + strands("ribbon"), 64},
-      {"fogAlone", point + inBox(kSmoke)},
+      {.name = "fogAlone", .world = point + inBox(kSmoke), .samples = 96, .tooBright = 1.1},
       {"mixedLobes",
        "Material \"uber\" \"rgb Kd\" [ .5 .4 .3 ] \"rgb Kr\" [ .3 .3 .3 ] \"rgb Ks\" [ 0 0 0 ]\n"
        "Shape \"disk\" \"float radius\" 2\nTranslate 0 .2 .7 Shape \"sphere\" \"float radius\" .6\n"
