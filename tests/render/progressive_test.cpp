@@ -415,7 +415,7 @@ TEST(Progressive, AWarmUpStopsWithTheRender) {
 TEST(Progressive, ASecondRenderStartsWithoutViolations) {
   const std::string scene = cube(16, 8, grid(kUnknown + "\"float epsilon\" 0.5 "));
   const std::vector<LearningProgress> first = renderText(scene, {.seed = 2}).result.learning[0].passes,
-                                      second = continued(scene, 64, 2).result.learning[0].passes;
+                                      second = continued(scene, 256, 2).result.learning[0].passes;
   EXPECT_GT(first[0].cut, 100u);
   for (const LearningProgress& pass : second) {
     EXPECT_EQ(pass.cut, 0u);
