@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Tables of the lab become pictures that show what is in them."""
 import io
-import os
-import subprocess
 import tempfile
 import unittest
 from contextlib import redirect_stderr
 from pathlib import Path
 
 from compare.lab_plot import lab_figure, main, read_rows
-from compare.lab_tables import KINDS, kind_of, log_bar
+from compare.lab_tables import log_bar
 from compare.problems import CaseError
 
 CONVERGE = """# medialab converge
@@ -142,16 +140,6 @@ class LabPlot(unittest.TestCase):
         (self.folder / "t.csv").write_text(PROGRESSIVE)
         with self.assertRaisesRegex(CaseError, "one axis only"):
             lab_figure(read_rows(self.folder / "t.csv"), "seconds")
-
-    def test_the_lab_writes_what_is_drawn(self):
-        lab = Path(os.environ["PBRT_MEDIA_BIN"]) / "medialab"
-        for command, words in {"levels": ["--trials", "40"], "running": ["--runs", "4"], "power-law": ["--trials", "20"],
-                               "progressive": ["--passes", "4", "--repeats", "8"]}.items():
-            table = self.folder / f"{command}.csv"
-            done = subprocess.run([str(lab), command, "--quiet", "-o", str(table), *words], capture_output=True, text=True, timeout=100)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertIs(kind_of(read_rows(table)[0]), KINDS[command])
-            self.assertEqual(main([str(table)]), 0, command)
 
     def test_the_program_writes_a_picture(self):
         self.assertEqual(main([str(self.folder / "c.csv")]), 0)
