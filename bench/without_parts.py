@@ -159,6 +159,9 @@ def run(parts: list[Part], o: argparse.Namespace) -> int:
 
 def page(rows: list[dict[str, str]]) -> str:
     body = []
+    measured = {row["part"] for row in rows}
+    missing = [name for name in (CONTROL, *(p.name for p in parse(PARTS.read_text()))) if name not in measured]
+    left = f" Not measured yet: {', '.join(missing)}." if missing else ""
     for row in rows:
         count = f"{float(row['instructions']):.3f}" if row["instructions"] else ""
         body.append(f"| {row['part']} | {row['left out']} | `{row['scene']}` | {float(row['time']):.3f} "
@@ -172,7 +175,7 @@ def page(rows: list[dict[str, str]]) -> str:
         "docs/unneeded.md`. The program is built as it is and once without each part (`bench/parts/parts.txt` has the edits); both render a scene of",
         "`bench/parts` that does not need it, in turn on one thread, to the same bits. That such a scene does not build the part either is a test",
         "(`tests/main/built_parts_test.cpp`; the counts are in `--stats`, [statistics](statistics.md)).", "",
-        verdict, "",
+        verdict + left, "",
         "| part | what the other program lacks | scene | processor time with / without | 95 % | instructions with / without |",
         "| --- | --- | --- | --- | --- | --- |", *body, ""])
 
