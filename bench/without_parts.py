@@ -8,7 +8,7 @@
 
 `run` builds a copy of the tracked files in build/without/tree once as it is and once for each part without it, and renders the part's scene by both
 in turn, on one thread, another seed each round. Both must give the same bits. The ratio is that of the processor time of the program as it is to
-that of the program without the part; median over the rounds with the interval of 95 % that order statistics give. "nothing" is the control: the
+that of the program without the part; median over the rounds with the interval of 95 % that order statistics give. "control" is the
 same program twice. --instructions also counts instructions by valgrind's cachegrind (4 samples of each pixel), which no load of the machine changes.
 """
 import argparse
@@ -29,7 +29,7 @@ import mutations  # noqa: E402
 from option_costs import interval, seconds_of  # noqa: E402
 
 PARTS = ROOT / "bench" / "parts" / "parts.txt"
-CONTROL = "nothing"
+CONTROL = "control"
 LIMIT = 1.02
 COLUMNS = ["part", "scene", "left out", "time", "low", "high", "instructions"]
 
@@ -145,7 +145,7 @@ def run(parts: list[Part], o: argparse.Namespace) -> int:
     build(tree, (), whole)
     again = folder / "pbrt-again"
     shutil.copy2(whole, again)
-    rows = [measure(Part(CONTROL, "cloud", "the control", ()), again, whole, o.rounds, False)]
+    rows = [measure(Part(CONTROL, "cloud", "nothing: the same program twice", ()), again, whole, o.rounds, False)]
     for part in parts:
         program = folder / f"pbrt-without-{part.name}"
         build(tree, part.edits, program)
