@@ -101,7 +101,7 @@ void OptionList::addImage() {
       ->check(wholeNumber(0u, 4096u))
       ->type_name("N")
       ->group(kRendering);
-  app_.add_option("--outfile", outfile_, "image file; overrides the scene's (.exr .png .pfm .tga)")
+  app_.add_option("-o,--outfile", outfile_, "image file; overrides the scene's (.exr .png .pfm .tga)")
       ->check(fileName())
       ->group(kRendering);
   app_.add_option("--layers", layers_,

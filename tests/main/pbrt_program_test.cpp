@@ -304,6 +304,8 @@ TEST_F(Pbrt, TakesEveryOptionWithOneDashAsPbrtDoes) {
   folder_.write("a.pbrt", kScene);
   EXPECT_EQ(pbrt("-quick -outfile=one.exr -nthreads 1 -tile-size 8 a.pbrt").status, 0);
   EXPECT_TRUE(folder_.has("one.exr"));
+  EXPECT_EQ(pbrt("-quick -o two.exr a.pbrt").status, 0);
+  EXPECT_TRUE(folder_.has("two.exr"));
   EXPECT_EQ(pbrt("-version").status, 0);
   EXPECT_EQ(pbrt("-quicker a.pbrt").status, 1);
 }

@@ -134,7 +134,7 @@ void addDiff(CLI::App& app, DiffOptions& o, Run& run) {
   c->add_option("--flip-map", o.flipMap, "write the FLIP error of each pixel here, in [0, 1]; computes FLIP");
   c->add_option("--ppd", o.pixelsPerDegree, "pixels per degree for FLIP (67.02)")
       ->check(number(NumberRange::between(1, 1000)));
-  c->add_option("--outfile", o.outfile, "write |a - b| here when the images differ");
+  c->add_option("-o,--outfile", o.outfile, "write |a - b| here when the images differ");
   c->add_flag("--json", o.json, "print JSON instead of text");
   c->callback([&o, &run] { run = [&o] { return runDiff(o); }; });
 }
