@@ -110,9 +110,9 @@ TEST(StopSignal, LetsTheTimeEndWhenItIsTold) {
     EXPECT_GE(watch.seconds(), .05);
     EXPECT_EQ(causeOfLeaving(leaveIfStopped), StopCause::Time);
   }
-  const StopSignal again({.timeLimit = .02, .abandonsPaths = true});
+  const StopSignal again({.timeLimit = .4, .abandonsPaths = true});
   again.endIn(StopSignal::kNever);
-  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
   EXPECT_FALSE(again);
 }
 

@@ -331,7 +331,7 @@ TEST_F(Checkpoints, OfSeveralWorldsTheOneUnderWayIsKept) {
   }
   EXPECT_EQ(folder_.read("one.pfm"), images["one.pfm"]) << "written before the second world began";
   std::filesystem::remove(folder_.path() / "one.pfm");
-  const ProcessResult more = pbrt("--resume c.ckpt --time .3 endless.pbrt");
+  const ProcessResult more = pbrt("--resume c.ckpt --time 1 endless.pbrt");
   EXPECT_EQ(more.status, 0);
   EXPECT_NE(more.output.find("note: going on with world 2; the images of those before are written"),
             std::string::npos)

@@ -263,9 +263,9 @@ TEST_F(Convergence, TakesNoBlackImageForAGoodOne) {
 
 TEST_F(Convergence, TellsWhatStoppedARenderEarly) {
   folder_.write("a.pbrt", stripes(100000000));
-  EXPECT_EQ(pbrt("--strict --time .5 --stats s.json a.pbrt", "timeout -s KILL 120").status, 3);
+  EXPECT_EQ(pbrt("--strict --time 1 --stats s.json a.pbrt", "timeout -s KILL 120").status, 3);
   EXPECT_EQ(stats()["stoppedBy"], "time");
-  EXPECT_EQ(pbrt("--time .5 a.pbrt", "timeout -s KILL 120").status, 0) << "only --strict minds";
+  EXPECT_EQ(pbrt("--time 1 a.pbrt", "timeout -s KILL 120").status, 0) << "only --strict minds";
   EXPECT_EQ(pbrt("--strict --stats s.json a.pbrt", "timeout --preserve-status -s INT 1").status, 3);
   EXPECT_EQ(stats()["stoppedBy"], "signal");
 }
