@@ -89,8 +89,8 @@ void checkMemory(const Bounds2i& pixels, Vector2f radius, const LayerSet& layers
 
 /// What the samples of one index bring to a pixel: take(sample, weight, pixel of the sample), row by row.
 template <class Take>
-void visitNeighbours(const SamplePass& pass, const FilterTable& filter, int index, Point2i pixel,
-                     const Take& take) {
+[[gnu::always_inline]] inline void visitNeighbours(const SamplePass& pass, const FilterTable& filter,
+                                                   int index, Point2i pixel, const Take& take) {
   const Point2i first = filter.firstNeighbour(), last = filter.lastNeighbour();
   for (int ky = first.y; ky <= last.y; ++ky) {
     const SamplePass::Sample* neighbour = &pass.at({pixel.x + first.x, pixel.y + ky}, index);

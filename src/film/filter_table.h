@@ -20,8 +20,10 @@ class FilterTable {
   Vector2f radius() const { return radius_; }
   /// Weight of a sample at a distance per axis (sample minus pixel centre); null outside [-radius, radius).
   const float* find(float dx, float dy) const {
-    const int x = cell(dx, radius_.x, cellsX_), y = cell(dy, radius_.y, cellsY_);
-    return x < 0 || y < 0 ? nullptr : &values_[static_cast<std::size_t>(y * kWidth + x)];
+    const int y = cell(dy, radius_.y, cellsY_);
+    if (y < 0) return nullptr;
+    const int x = cell(dx, radius_.x, cellsX_);
+    return x < 0 ? nullptr : &values_[static_cast<std::size_t>(y * kWidth + x)];
   }
   /// Over the plane, pixels².
   double integral() const;

@@ -27,13 +27,4 @@ void SamplePass::clear(const Bounds2i& pixels) {
   }
 }
 
-// One plane for each sample index: the order in which the film reads them.
-std::size_t SamplePass::index(Point2i pixel, int sample) const {
-  const auto width = static_cast<std::size_t>(bounds_.width()),
-             height = static_cast<std::size_t>(bounds_.height());
-  const auto x = static_cast<std::size_t>(pixel.x - bounds_.min.x),
-             y = static_cast<std::size_t>(pixel.y - bounds_.min.y);
-  return (static_cast<std::size_t>(sample) * height + y) * width + x;
-}
-
 }  // namespace pbrtmedia

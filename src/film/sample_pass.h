@@ -49,7 +49,14 @@ class SamplePass {
   void setFirstIndex(std::int64_t index) { firstIndex_ = index; }
 
  private:
-  std::size_t index(Point2i pixel, int sample) const;
+  // One plane for each sample index: the order in which the film reads them.
+  std::size_t index(Point2i pixel, int sample) const {
+    const auto width = static_cast<std::size_t>(bounds_.width()),
+               height = static_cast<std::size_t>(bounds_.height());
+    const auto x = static_cast<std::size_t>(pixel.x - bounds_.min.x),
+               y = static_cast<std::size_t>(pixel.y - bounds_.min.y);
+    return (static_cast<std::size_t>(sample) * height + y) * width + x;
+  }
   Bounds2i bounds_;
   int samples_;
   std::int64_t firstIndex_;

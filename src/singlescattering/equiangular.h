@@ -46,11 +46,22 @@ class Equiangular {
 
   /// `u` in [0, 1).
   double sample(double u) const {
-    const double phi = u * angle_, sine = std::sin(phi), cosine = std::cos(phi);
-    const double h = distance_;
-    const double t = tMin_ + sine * (h * h + near_ * near_) / (h * cosine - near_ * sine);
-    // Rounding at the far end of an infinite stretch: NaN and infinity become finite.
-    return t >= tMin_ ? std::min(t, std::min(tMax_, kHuge)) : std::min(tMax_, kHuge);
+    const double phi = u * angle_;
+    return at(std::sin(phi), std::cos(phi));
+  }
+  /// Calls visit(t) for `n` distances in order that share the density evenly: those of u = (i + 1/2) / n, up
+  /// to rounding.
+  template <class Visit>
+  void forEven(int n, const Visit& visit) const {
+    const double half = angle_ / (2 * n);
+    double sine = std::sin(half), cosine = std::cos(half);
+    const double sineOfStep = 2 * sine * cosine, cosineOfStep = (cosine - sine) * (cosine + sine);
+    for (int i = 0; i < n; ++i) {
+      visit(at(sine, cosine));
+      const double next = cosine * cosineOfStep - sine * sineOfStep;
+      sine = sine * cosineOfStep + cosine * sineOfStep;
+      cosine = next;
+    }
   }
   /// Density with respect to t; 0 outside the stretch.
   double pdf(double t) const {
@@ -64,6 +75,13 @@ class Equiangular {
  private:
   static constexpr double kTiny = 1e-150, kHuge = 1e150;
   Equiangular() = default;
+  /// Behind an angle from the near end.
+  double at(double sine, double cosine) const {
+    const double h = distance_;
+    const double t = tMin_ + sine * (h * h + near_ * near_) / (h * cosine - near_ * sine);
+    // Rounding at the far end of an infinite stretch: NaN and infinity become finite.
+    return t >= tMin_ ? std::min(t, std::min(tMax_, kHuge)) : std::min(tMax_, kHuge);
+  }
   double foot_ = 0, near_ = 0;  ///< t of the foot of the perpendicular; tMin relative to it
   double distance_ = 1;         ///< from the point to the line
   double tMin_ = 0, tMax_ = 0, angle_ = 0;

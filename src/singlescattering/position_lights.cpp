@@ -23,12 +23,11 @@ bool isQuieter(const Equiangular& distances, double tMin, double sigma) {
   constexpr int kPoints = 8;
   constexpr double kCost = 1.5;
   double stretch = 0, collisions = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    const double t = distances.sample((i + 0.5) / kPoints);
+  distances.forEven(kPoints, [&](double t) {
     const double transmittance = std::exp(-sigma * (t - tMin));
     stretch += sigma * transmittance * transmittance;
     collisions += transmittance * distances.pdf(t);
-  }
+  });
   return kCost * stretch < collisions;
 }
 
@@ -97,6 +96,11 @@ std::optional<StretchSample> PositionLights::sample(const Stretch& stretch, floa
     const Entry& e = lights_[c.source];
     const std::optional<Equiangular> distances = over(e, stretch);
     return distances ? at(e, *distances, c.probability) : std::nullopt;
+  }
+  if (lights_.size() == 1) {
+    const std::optional<Equiangular> only = over(lights_[0], stretch);
+    const bool isLit = only && lights_[0].power * only->strength() > 0;
+    return isLit ? at(lights_[0], *only, 1) : std::nullopt;
   }
   std::array<std::optional<Equiangular>, kMostWeighed> distances;
   std::array<double, kMostWeighed> weights{};

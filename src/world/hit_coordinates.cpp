@@ -23,11 +23,13 @@ double coordinatesOf(const SceneHit& hit, float time) {
     const Bounds3f bounds = shape.bounds();
     for (count = 0; count < corners.size(); ++count) corners[count] = bounds.corner(static_cast<int>(count));
   }
-  Transform place;
-  if (hit.placement) place = hit.placement->worldFromObject(time);
   double largest = 0;
-  for (const Point3f& corner : std::span(corners).first(count)) {
-    largest = std::max(largest, maxComponent(abs(place.point(Vec3d(corner)))));
+  const auto add = [&](Vec3d corner) { largest = std::max(largest, maxComponent(abs(corner))); };
+  if (hit.placement) {
+    const Transform place = hit.placement->worldFromObject(time);
+    for (const Point3f& corner : std::span(corners).first(count)) add(place.point(Vec3d(corner)));
+  } else {
+    for (const Point3f& corner : std::span(corners).first(count)) add(Vec3d(corner));
   }
   return largest;
 }

@@ -28,8 +28,10 @@ constexpr float kNearOrigin = 1e-3f;
 /// Forgets crossings that lie behind `t`. What the ray starts or ends on stays left out: another query would
 /// report it at a t that rounding decides.
 void LineWalk::forgetBefore(float t) {
+  const auto crossed = exclusions_.entries().subspan(fixed_.entries().size());
+  if (std::ranges::all_of(crossed, [&](const Exclusions::Entry& e) { return e.t >= t; })) return;
   Exclusions kept = fixed_;
-  for (const Exclusions::Entry& e : exclusions_.entries().subspan(fixed_.entries().size())) {
+  for (const Exclusions::Entry& e : crossed) {
     if (e.t >= t) kept.add(e.id, e.t);
   }
   exclusions_ = kept;
@@ -66,7 +68,7 @@ bool LineWalk::fetch(std::uint64_t& queries) {
     advancePast(hit->hit);
     if (hit->primitive->isInvisible()) continue;
     if (isFromCamera_ && holdsOrigin(*hit)) continue;
-    ahead_.push_back(*hit);
+    ahead_.add(*hit);
     return true;
   }
   return false;
@@ -105,7 +107,8 @@ CoincidentSurfaces LineWalk::coincidentWith(const SceneHit& hit, const SurfaceIn
     return !isOwn && !other.primitive->media.same();
   };
   // What `next` passed over coincides.
-  for (const SceneHit& other : ahead_) {
+  for (std::size_t i = 0; i < ahead_.size(); ++i) {
+    const SceneHit& other = ahead_[i];
     if (!isOther(other)) continue;
     const SurfaceInteraction at = scene_.surface(other, ray_);
     found.add({other, at.n, at.p});
@@ -131,7 +134,7 @@ CoincidentSurfaces LineWalk::coincidentWith(const SceneHit& hit, const SurfaceIn
 }
 
 std::size_t LineWalk::lookAhead(std::uint64_t& queries) {
-  if (ahead_.empty() && !fetch(queries)) return 0;
+  if (ahead_.isEmpty() && !fetch(queries)) return 0;
   for (std::size_t i = 0;; ++i) {
     if (ahead_[i].primitive->material) return i + 1;
     // Looking one hit ahead costs nothing: whoever passes this boundary asks for the next hit anyway.

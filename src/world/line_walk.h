@@ -2,9 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "world/coincident_surfaces.h"
+#include "world/hit_queue.h"
 #include "world/scene.h"
 
 namespace pbrtmedia {
@@ -35,7 +35,7 @@ class LineWalk {
   /// before them ends. What lies beyond is not looked for yet, which saves a query where the path ends on the
   /// way.
   std::optional<SceneHit> peek(std::uint64_t& queries) {
-    if (ahead_.empty() && !fetch(queries)) return std::nullopt;
+    if (ahead_.isEmpty() && !fetch(queries)) return std::nullopt;
     return ahead_.front();
   }
   /// The next hit; none when there is no further one before ray.tMax. `queries`: a counter of ray queries.
@@ -52,7 +52,7 @@ class LineWalk {
       chosen = group - 1;
     }
     const SceneHit hit = ahead_[chosen];
-    ahead_.erase(ahead_.begin() + static_cast<std::ptrdiff_t>(chosen));
+    ahead_.erase(chosen);
     return hit;
   }
   std::optional<SceneHit> next(std::uint64_t& queries) {
@@ -80,7 +80,7 @@ class LineWalk {
   bool isFromCamera_ = false;
   float tMin_ = 0;
   bool ended_ = false;
-  std::vector<SceneHit> ahead_;  ///< found but not yet delivered, in order of t
+  HitQueue ahead_;  ///< found but not yet delivered, in order of t
 };
 
 }  // namespace pbrtmedia

@@ -53,6 +53,21 @@ TEST(Equiangular, SamplesInvertTheClosedFormOfTheAngles) {
   }
 }
 
+TEST(Equiangular, EvenDistancesAreTheSamplesOfEvenNumbers) {
+  for (const Case& c : kCases) {
+    const auto e = Equiangular::over(c.o, c.d, c.tMin, c.tMax, c.point);
+    ASSERT_TRUE(e) << c.name;
+    for (const int n : {1, 2, 8}) {
+      int i = 0;
+      e->forEven(n, [&](double t) {
+        const double sample = e->sample((i++ + 0.5) / n);
+        EXPECT_LE(std::abs(t - sample) * e->pdf(sample), 1e-9) << c.name << ": " << i << " of " << n;
+      });
+      EXPECT_EQ(i, n);
+    }
+  }
+}
+
 TEST(Equiangular, StaysInsideAndHasTheDensityItStatesInEveryPosition) {
   for (const Case& c : kCases) {
     const auto e = Equiangular::over(c.o, c.d, c.tMin, c.tMax, c.point);
