@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "accelerators/embree_device.h"
+#include "accelerators/few_shapes.h"
 #include "accelerators/impl.h"
 #include "accelerators/query.h"
 #include "base/built_parts.h"
@@ -117,6 +118,11 @@ bool goesOn(void*, double) { return interruption::requested == StopCause::None; 
 
 }  // namespace
 
+Accelerator::Impl::Impl() = default;
+Accelerator::Impl::~Impl() {
+  if (scene) rtcReleaseScene(scene);
+}
+
 GeometryRecord& Accelerator::Impl::add(const HitFilter* filter) {
   CHECK(!isBuilt) << "nothing can be added to a built accelerator";
   auto record = std::make_unique<GeometryRecord>();
@@ -206,6 +212,7 @@ void Accelerator::build() {
     countBuilt(Part::RayTrees);
     rtcCommitScene(impl_->scene);
   });
+  impl_->few = FewShapes::of(impl_->records);
 }
 
 std::optional<RayHit> Accelerator::intersect(const Ray& ray, float tMin, const Exclusions& exclusions) const {

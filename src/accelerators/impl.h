@@ -34,6 +34,8 @@ struct GeometryRecord {
 /// Embree leaves out primitives beyond this without a word, and takes rays beyond it for none.
 constexpr float kLargestCoordinate = 1.8e18f;
 
+class FewShapes;
+
 struct Accelerator::Impl {
   std::vector<std::unique_ptr<GeometryRecord>> records;
   Bounds3f bounds;
@@ -41,15 +43,14 @@ struct Accelerator::Impl {
   double largestRay = double{kLargestCoordinate};
   bool holdsInstances = false;
   bool isBuilt = false;
-  RTCScene scene = nullptr;  ///< null: nothing to hit
+  RTCScene scene = nullptr;              ///< null: nothing to hit
+  std::unique_ptr<const FewShapes> few;  ///< all there is to hit; null: more than that
   std::size_t bytes = 0;
 
-  Impl() = default;
+  Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
-  ~Impl() {
-    if (scene) rtcReleaseScene(scene);
-  }
+  ~Impl();
   GeometryRecord& add(const HitFilter* filter);
   void attach(GeometryRecord& record);
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "accelerators/few_shapes.h"
 #include "accelerators/triangle_pair.h"
 
 namespace pbrtmedia {
@@ -40,6 +41,11 @@ Query::Query(const Ray& ray, float tMin, const Exclusions& exclusions, bool shad
 void Query::run(const Accelerator::Impl& accelerator) {
   const double largest = double{std::max(maxComponent(abs(ray_.o)), maxComponent(abs(ray_.d)))};
   if (!(largest <= accelerator.largestRay)) return;
+  // The far end is inclusive here, that of rays is not.
+  float tMax = std::isfinite(ray_.tMax) ? std::nextafter(ray_.tMax, -kInfinity) : ray_.tMax;
+  if (best_.id.isValid()) tMax = std::min(tMax, best_.t);
+  if (!(tMin_ <= tMax)) return;
+  if (accelerator.few) return meet(*accelerator.few, tMax);
   RTCRayHit r{};
   r.ray.org_x = ray_.o.x;
   r.ray.org_y = ray_.o.y;
@@ -48,16 +54,32 @@ void Query::run(const Accelerator::Impl& accelerator) {
   r.ray.dir_y = ray_.d.y;
   r.ray.dir_z = ray_.d.z;
   r.ray.tnear = tMin_;
-  // Embree's far end is inclusive, ours is not.
-  r.ray.tfar = std::isfinite(ray_.tMax) ? std::nextafter(ray_.tMax, -kInfinity) : ray_.tMax;
-  if (best_.id.isValid()) r.ray.tfar = std::min(r.ray.tfar, best_.t);
+  r.ray.tfar = tMax;
   r.ray.mask = 0xffffffffu;
   r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  if (!(r.ray.tnear <= r.ray.tfar)) return;
   if (shadowRay_) {
     rtcOccluded1(accelerator.scene, &context_.embree, &r.ray);
   } else {
     rtcIntersect1(accelerator.scene, &context_.embree, &r);
+  }
+}
+
+void Query::meet(const FewShapes& few, float tMax) {
+  const FewShapes::Line line(ray_);
+  const auto end = [&] { return best_.id.isValid() ? std::min(tMax, best_.t) : tMax; };
+  for (const FewShapes::Item& item : few.items()) {
+    const GeometryRecord& record = item.record();
+    if (!item.mayMeet(line, tMin_, end())) continue;
+    if (record.user) {
+      Ray ray = ray_;
+      ray.tMax = end();
+      hitUser(record, 0, ray, tMin_);
+    } else {
+      item.visitCrossings(line, tMin_, end, [&](const FewShapes::Crossing& at) {
+        hitTriangle(record, {at.t, {instance(), record.number, at.primitive}, at.uv}, line.o, line.d);
+      });
+    }
+    if (shadowRay_ && best_.id.isValid()) return;
   }
 }
 
@@ -181,16 +203,24 @@ void Query::filterTriangle(const RTCFilterFunctionNArguments* args) {
                    .uv = {RTCHitN_u(at, 1, 0), RTCHitN_v(at, 1, 0)}};
   const Vec3d direction(RTCRayN_dir_x(ray, 1, 0), RTCRayN_dir_y(ray, 1, 0), RTCRayN_dir_z(ray, 1, 0));
   const Vec3d origin(RTCRayN_org_x(ray, 1, 0), RTCRayN_org_y(ray, 1, 0), RTCRayN_org_z(ray, 1, 0));
-  const bool isOut = (!query.exclusions_.isEmpty() && query.isLeftOut(record, hit, direction)) ||
-                     query.grazesSilhouette(record, hit, origin, direction);
-  if (isOut || !query.take(record, hit)) args->valid[0] = 0;
+  if (!query.hitTriangle(record, hit, origin, direction)) args->valid[0] = 0;
+}
+
+bool Query::hitTriangle(const GeometryRecord& record, const RayHit& hit, Vec3d origin, Vec3d direction) {
+  if (!exclusions_.isEmpty() && isLeftOut(record, hit, direction)) return false;
+  return !grazesSilhouette(record, hit, origin, direction) && take(record, hit);
 }
 
 bool Query::hitUser(const GeometryRecord& record, std::uint32_t primitive, const RTCRay& from) {
-  const Ray ray{.o = {from.org_x, from.org_y, from.org_z},
-                .d = {from.dir_x, from.dir_y, from.dir_z},
-                .tMax = from.tfar,
-                .time = ray_.time};
+  return hitUser(record, primitive,
+                 {.o = {from.org_x, from.org_y, from.org_z},
+                  .d = {from.dir_x, from.dir_y, from.dir_z},
+                  .tMax = from.tfar,
+                  .time = ray_.time},
+                 from.tnear);
+}
+
+bool Query::hitUser(const GeometryRecord& record, std::uint32_t primitive, const Ray& ray, float tMin) {
   const PrimitiveId id{instance(), record.number, primitive};
   // Room for the roots a filter rejects, which are then left out as well.
   std::array<float, Exclusions::kCapacity + 16> excludedT;
@@ -200,8 +230,7 @@ bool Query::hitUser(const GeometryRecord& record, std::uint32_t primitive, const
     if (isOfGeometry && record.user->continues(entry.id.primitive, primitive)) excludedT[count++] = entry.t;
   }
   while (true) {
-    const auto root =
-        record.user->intersect(primitive, ray, from.tnear, from.tfar, {excludedT.data(), count});
+    const auto root = record.user->intersect(primitive, ray, tMin, ray.tMax, {excludedT.data(), count});
     if (!root) return false;
     const RayHit hit{.t = static_cast<float>(root->t), .id = id, .uv = root->uv};
     if (take(record, hit)) return true;

@@ -45,6 +45,9 @@ class Query {
   static void occludedInstance(const RTCOccludedFunctionNArguments* args);
 
   std::uint32_t instance() const;
+  /// Without a tree, up to `tMax` inclusive.
+  void meet(const FewShapes& few, float tMax);
+  bool hitTriangle(const GeometryRecord& record, const RayHit& hit, Vec3d origin, Vec3d direction);
   /// The candidate becomes `best_` when nothing speaks against it.
   bool take(const GeometryRecord& record, const RayHit& hit);
   bool isExcluded(const PrimitiveId& id) const;
@@ -62,6 +65,8 @@ class Query {
   };
   std::optional<BorderStart> borderStart(const Accelerator::Impl& world,
                                          const Exclusions::Entry& entry) const;
+  /// `ray` ends at the nearest hit so far.
+  bool hitUser(const GeometryRecord& record, std::uint32_t primitive, const Ray& ray, float tMin);
   bool hitUser(const GeometryRecord& record, std::uint32_t primitive, const RTCRay& ray);
   bool hitInstance(const GeometryRecord& record);
 

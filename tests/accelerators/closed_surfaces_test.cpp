@@ -15,8 +15,7 @@ using test::Mesh;
 
 /// A random walk of `chords` chords inside a closed mesh, leaving the walls at cosines above `minCosine`.
 /// Returns how many rays found no wall.
-int leaks(const Mesh& mesh, Point3f start, int chords, float minCosine = 0) {
-  const Accelerator a = builtFrom(mesh);
+int leaks(const Accelerator& a, const Mesh& mesh, Point3f start, int chords, float minCosine) {
   Rng rng(3);
   int count = 0;
   Point3f p = start;
@@ -24,7 +23,7 @@ int leaks(const Mesh& mesh, Point3f start, int chords, float minCosine = 0) {
   Vector3f d = test::randomDirection(rng);
   for (int i = 0; i < chords; ++i) {
     const auto hit = a.intersect(makeRay(p, d), 0, exclusions);
-    if (!hit) {
+    if (!hit || hit->id.geometry != 0) {
       ++count;
       p = start;
       exclusions = {};
@@ -41,6 +40,11 @@ int leaks(const Mesh& mesh, Point3f start, int chords, float minCosine = 0) {
     d = Frame::fromZ(Vector3f(-mesh.normal(hit->id.primitive))).toWorld(local);
   }
   return count;
+}
+
+int leaks(const Mesh& mesh, Point3f start, int chords, float minCosine = 0) {
+  return leaks(builtFrom(mesh), mesh, start, chords, minCosine) +
+         leaks(test::builtAsTreeFrom(mesh), mesh, start, chords, minCosine);
 }
 
 TEST(ClosedSurfaces, NoneOfAMillionChordsLeavesABox) {

@@ -77,6 +77,16 @@ inline Accelerator builtFrom(const Mesh& mesh, const HitFilter* filter = nullptr
   return a;
 }
 
+/// The same beside so many triangles, far away, that rays are led through a tree.
+inline Accelerator builtAsTreeFrom(const Mesh& mesh) {
+  static const Mesh kFar = sphereMesh(3).transformed(Transform::translate({0, 0, -10000}));
+  Accelerator a;
+  a.addTriangles(mesh.buffers());
+  a.addTriangles(kFar.buffers());
+  a.build();
+  return a;
+}
+
 inline Ray makeRay(Point3f o, Vector3f d, float tMax = kInfinity, float time = 0) {
   return {.o = o, .d = d, .tMax = tMax, .time = time};
 }
