@@ -221,6 +221,7 @@ bool Query::hitUser(const GeometryRecord& record, std::uint32_t primitive, const
 }
 
 bool Query::hitUser(const GeometryRecord& record, std::uint32_t primitive, const Ray& ray, float tMin) {
+  if (onlyAdjacent_) return false;
   const PrimitiveId id{instance(), record.number, primitive};
   // Room for the roots a filter rejects, which are then left out as well.
   std::array<float, Exclusions::kCapacity + 16> excludedT;
@@ -243,6 +244,7 @@ bool Query::hitInstance(const GeometryRecord& record) {
   const Transform worldFromObject = record.worldFromObject.at(ray_.time);
   if (worldFromObject.isSingular()) return false;
   Query inner(worldFromObject.inverse().ray(ray_), tMin_, exclusions_, shadowRay_);
+  inner.onlyAdjacent_ = onlyAdjacent_;
   inner.animatedInstance_ = record.number;
   inner.best_ = best_;
   inner.run(*record.object);
