@@ -181,7 +181,8 @@ bool FewShapes::Item::visitConvex(const Line& line, float tMin, const TMax& tMax
       out = slab.facet[far];
     }
   }
-  const double slack = kSure * (size / speed + (in ? std::abs(enter) : 0) + (out ? std::abs(exit) : 0));
+  const double reach = (in != kNone ? std::abs(enter) : 0) + (out != kNone ? std::abs(exit) : 0),
+               slack = kSure * (size / speed + reach);
   if (enter > exit + slack || exit < double{tMin} - slack) return true;
   if (enter > exit - slack) return false;
   for (const auto& [t, number] : {std::pair(enter, in), std::pair(exit, out)}) {
