@@ -156,13 +156,6 @@ const Medium* emitterWithoutEnd(const Scene& scene, const CameraMedium& camera) 
 /// What photons cannot tell of media, at the Integrator.
 void checkMediaForPhotons(const Scene& scene, const CameraMedium& camera, const SourceLocation& at,
                           Diagnostics& diagnostics) {
-  for (const Medium* medium : scene.media()) {
-    if (medium->isExponential()) continue;
-    throw SceneError(at,
-                     "Integrator \"sppm\": medium \"" + medium->name() +
-                         "\" has a law other than the exponential, under which what photons find from the "
-                         "light is not what paths find from the camera; \"volpath\" renders it");
-  }
   if (const Medium* const medium = emitterWithoutEnd(scene, camera)) {
     diagnostics.warning(
         at,

@@ -16,6 +16,7 @@
 #include "media/line_statistics.h"
 #include "media/rgb_channels.h"
 #include "media/tracking_choice.h"
+#include "spectrum/magnitudes.h"
 
 namespace pbrtmedia {
 namespace {
@@ -27,6 +28,11 @@ constexpr double kRefinedDepth = 0x1p14;
 /// Optical depth of unproven bounds across a medium above which less is tracked: some milliseconds of null
 /// collisions, mean free paths of 4e-6 of the medium.
 constexpr double kMostDepth = 0x1p18;
+/// The share of places to scatter at that are chosen as if nothing were in front of them: the control may be
+/// wrong about that, and laws other than the exponential let more light through than collides behind.
+constexpr double kScatteringDefence = 0.3;
+/// Of the largest bound: density of cells whose own bound is less, and that nobody has proven.
+constexpr float kLeastControl = 0.1f;
 /// Of a segment's length: rounding of the place where it leaves the medium.
 constexpr double kEndSlack = 1e-12;
 
@@ -179,16 +185,50 @@ EmissionSamples FieldMedium::sampleEmission(const Segment& segment, PixelStream 
     const double weight = distance->tag / distance->pdf;
     if (!emission.isBlack()) {
       const Segment before{segment.o, segment.d, segment.tMin, t};
-      const Rgb seen =
-          isExponential_ ? transmittance(before, random, counters) : collisionShare(before, random, counters);
-      samples.add(t, seen * emission * static_cast<float>(weight));
+      samples.add(t, collisionShare(before, random, counters) * emission * static_cast<float>(weight));
     }
   }
   if (flies) flyToEmission(samples, *line, segment, random, counters);
   return samples;
 }
 
+ScatteringProposal FieldMedium::proposeScattering(const Segment& segment, Rgb throughput, PixelStream random,
+                                                  RenderCounters& counters) const {
+  ScatteringProposal proposal;
+  if (hasNaN(segment)) return {.passed = kNaN};
+  const auto line = kernel_->clip(segment);
+  if (!line) return proposal;
+  const Rgb sigmaT = trackedSigmaT(), sigmaS = sigmaT * albedo_;
+  // Where nobody has proven that nothing is there, there may be something.
+  const float most = kernel_->superVoxels().maximum();
+  const float least = kernel_->bounds().areProven() ? 0 : most > 0 ? kLeastControl * most : 1;
+  EmissionSampler sampler(kScatteringDefence, random.rng(), lawOfFlights());
+  double column = 0;
+  line->walkCells([&](double sEnter, double sExit, const SuperVoxel& bound) {
+    const float density = std::max(bound.upper > 0 ? controlDensity(bound) : 0.0f, least);
+    if (!(density > 0)) return true;
+    sampler.add(sEnter, sExit, channelsOf(magnitudes(throughput) * sigmaS * density),
+                channelsOf(sigmaT * density));
+    column += static_cast<double>(density) * (sExit - sEnter);
+    return true;
+  });
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double passed = transmittanceOf(law_, static_cast<double>(sigmaT[c]) * column);
+    proposal.passed[c] = static_cast<float>(passed);
+    proposal.scattered += std::abs(double{throughput[c]}) * double{albedo_[c]} * (1 - passed);
+  }
+  const auto distance = sampler.distance();
+  if (!distance) return proposal;
+  ++counters.densityLookups;
+  proposal.t = std::clamp(line->tEntry() + distance->s, segment.tMin, segment.tMax);
+  proposal.pdf = distance->pdf;
+  proposal.sigmaS = sigmaS * kernel_->density(*line, distance->s);
+  return proposal;
+}
+
 Rgb FieldMedium::collisionShare(const Segment& segment, PixelStream random, RenderCounters& counters) const {
+  if (isExponential_) return transmittance(segment, random, counters);
+  if (hasNaN(segment)) return kNaN;
   Rgb share(1.0f);
   if (const auto line = lineOf(segment)) {
     explore(*line, random, counters);

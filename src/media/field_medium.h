@@ -30,6 +30,10 @@ class FieldMedium final : public Medium {
                                           RenderCounters& counters) const override;
   FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, PixelStream random,
                               RenderCounters& counters) const override;
+  /// By the control densities of the super-voxels.
+  ScatteringProposal proposeScattering(const Segment& segment, Rgb throughput, PixelStream random,
+                                       RenderCounters& counters) const override;
+  Rgb collisionShare(const Segment& segment, PixelStream random, RenderCounters& counters) const override;
   MediumPoint at(Point3f p, RenderCounters& counters) const override;
   /// From the control densities of the super-voxels.
   FlightControl flightControl(const Segment& segment) const override;
@@ -75,12 +79,6 @@ class FieldMedium final : public Medium {
   /// Null: the exponential one.
   const AnyLaw* lawOfFlights() const { return isExponential_ ? nullptr : &law_; }
 
-  /// Of light that the end of a segment emits, what is seen at its start, under another law g than the
-  /// exponential. As light that is scattered comes from where flights collide, so does that which is emitted:
-  /// it is dimmed by -g'(F), where a collision is extinction times that, and not by g(F). So a body emits
-  /// what it absorbs, and a furnace of one temperature is dark or bright everywhere alike.
-  Rgb collisionShare(const Segment& segment, PixelStream random, RenderCounters& counters) const;
-
   /// The emission that free flights find. What a collision stands for is emission over extinction, of which
   /// the density is no part.
   void flyToEmission(EmissionSamples& samples, const ClippedLine& emissionLine, const Segment& segment,
@@ -125,7 +123,7 @@ class FieldMedium final : public Medium {
   bool tellsSpread_;  ///< the estimator
   AnyLaw law_;
   bool isExponential_;
-  CollisionEstimator collisions_;  ///< for emission under another law
+  CollisionEstimator collisions_;  ///< for light from collisions under another law
   AnyFlight flights_;
   bool fliesUnderLaw_;
   PatternKind samplingPattern_;

@@ -13,6 +13,7 @@
 #include "media/emission/box_emission.h"
 #include "media/emission/emission_distance.h"
 #include "media/rgb_channels.h"
+#include "spectrum/magnitudes.h"
 
 namespace pbrtmedia {
 namespace {
@@ -75,6 +76,22 @@ FlightControl HomogeneousMedium::flightControl(const Segment& segment) const {
     control.depth[c] = static_cast<float>(opticalDepth(sigmaT_[c], segment.length()));
   }
   return control;
+}
+
+ScatteringProposal HomogeneousMedium::proposeScattering(const Segment& segment, Rgb throughput,
+                                                        PixelStream random, RenderCounters& counters) const {
+  ScatteringProposal proposal{.passed = transmittance(segment, random, counters), .sigmaS = sigmaS_};
+  for (std::size_t c = 0; c < 3; ++c) {
+    proposal.scattered +=
+        std::abs(double{throughput[c]}) * double{albedo_[c]} * (1 - double{proposal.passed[c]});
+  }
+  EmissionSampler sampler(0, random.rng());
+  sampler.add(0, segment.length(), channelsOf(magnitudes(throughput) * sigmaS_), channelsOf(sigmaT_));
+  if (const auto distance = sampler.distance()) {
+    proposal.t = segment.tMin + distance->s;
+    proposal.pdf = distance->pdf;
+  }
+  return proposal;
 }
 
 EmissionSamples HomogeneousMedium::sampleEmission(const Segment& segment, PixelStream random,

@@ -25,6 +25,8 @@ class HomogeneousMedium final : public Medium {
   Rgb transmittance(const Segment& segment, PixelStream random, RenderCounters& counters) const override;
   FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, PixelStream random,
                               RenderCounters& counters) const override;
+  ScatteringProposal proposeScattering(const Segment& segment, Rgb throughput, PixelStream random,
+                                       RenderCounters& counters) const override;
   const PhaseFunction& phase() const override { return *phase_; }
   Rgb sigmaT() const override { return sigmaT_; }
   double densestScattering() const override { return sigmaS_.isBlack() ? 0 : double{sigmaT_.max()}; }

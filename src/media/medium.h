@@ -61,6 +61,15 @@ struct EmissionSamples {
   const Sample* end() const { return samples.data() + count; }
 };
 
+/// Where what flies along a segment may scatter, chosen by what is known of the medium without a look at it.
+struct ScatteringProposal {
+  Rgb passed{1.0f};      ///< by that, what passes the segment
+  double scattered = 0;  ///< by that, how much of the throughput's channels together scatters on it
+  double t = 0;          ///< a place where the medium may scatter
+  double pdf = 0;        ///< its density, 1/length; 0: there is no place
+  Rgb sigmaS{};          ///< scattering coefficient there
+};
+
 /// How a medium behaves where others overlap it.
 struct OverlapRule {
   /// Boundary: PBRT-v3's rule, a boundary names the medium on both its sides. Add: the medium is present
@@ -95,6 +104,17 @@ class Medium {
   /// them, which bounds the weights of whole paths; where it is 0 a chromatic medium may return weight 0.
   virtual FreeFlight sampleFreeFlight(const Segment& segment, Rgb throughput, PixelStream random,
                                       RenderCounters& counters) const = 0;
+  /// A place to scatter at; every place of the segment that scatters may be it.
+  virtual ScatteringProposal proposeScattering(const Segment& segment, Rgb throughput, PixelStream random,
+                                               RenderCounters& counters) const = 0;
+  /// Of light that a collision at the end of a segment sends along it (scattered there, or emitted), an
+  /// unbiased estimate of what is seen at its start. Under a law g of the optical depth F that is -g'(F), as
+  /// flights from there collide so often, and not the transmittance g(F); under the exponential law they are
+  /// the same. So a body emits what it absorbs, and a furnace of one temperature is dark or bright everywhere
+  /// alike.
+  virtual Rgb collisionShare(const Segment& segment, PixelStream random, RenderCounters& counters) const {
+    return transmittance(segment, random, counters);
+  }
   virtual const PhaseFunction& phase() const = 0;
   /// Whether transmittance is the exponential of the optical depth. If not, collisions at a distance are not
   /// extinction times transmittance.

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "world/media_stretch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "spectrum/magnitudes.h"
 #include "world/scene.h"
 
 namespace pbrtmedia {
+namespace {
+
+/// Of flights of light: what passes weighs at most its inverse, however wrong the control is.
+constexpr double kLeastProbabilityToPass = 1.0 / 16;
+
+}  // namespace
 
 Segment MediaStretch::segmentIn(const PlacedMedium& m) const {
   const Segment segment{ray_->o, ray_->d, tMin_, tMax_};
@@ -38,7 +46,7 @@ MediumFlight MediaStretch::sampleFreeFlight(Rgb throughput, PixelStream random,
   if (state_->activeCount() > 1) return nearestOfFlights(throughput, random, counters);
   const PlacedMedium m = state_->active(0);
   const FreeFlight f = m.medium->sampleFreeFlight(segmentIn(m), throughput, random, counters);
-  return {f.collided, f.t, f.weight, f.collided ? &m.medium->phase() : nullptr};
+  return {f.collided, f.t, f.weight, f.collided ? &m.medium->phase() : nullptr, 0};
 }
 
 /// Independent free flights through several media. The nearest collision counts. What another medium let
@@ -66,7 +74,7 @@ MediumFlight MediaStretch::nearestOfFlights(Rgb throughput, PixelStream random,
     rest.tMax_ = f.t;
     winner = i;
     collidedWeight = f.weight;
-    nearest = {true, f.t, Rgb(1.0f), &m.medium->phase()};
+    nearest = {true, f.t, Rgb(1.0f), &m.medium->phase(), i};
   }
   for (std::size_t i = 0; i < flights.size(); ++i) {
     if (i == winner) {
@@ -83,6 +91,51 @@ MediumFlight MediaStretch::nearestOfFlights(Rgb throughput, PixelStream random,
     nearest.weight *= flights[i].passed;
   }
   return nearest;
+}
+
+Rgb MediaStretch::lightThrough(std::optional<std::size_t> source, PixelStream random,
+                               RenderCounters& counters) const {
+  Rgb product(1.0f);
+  for (std::size_t i = 0; i < state_->activeCount() && !product.isBlack(); ++i) {
+    const PlacedMedium m = state_->active(i);
+    product *= i == source ? m.medium->collisionShare(segmentIn(m), random, counters)
+                           : m.medium->transmittance(segmentIn(m), random, counters);
+  }
+  return product;
+}
+
+/// One of what may happen (each medium scatters, or nothing does) with about the probability that it has, at
+/// a place of known density, and estimates of what gets there.
+MediumFlight MediaStretch::sampleFlightOfLight(std::optional<std::size_t> source, Rgb throughput,
+                                               PixelStream random, RenderCounters& counters) const {
+  if (state_->isExponential()) return sampleFreeFlight(throughput, random, counters);
+  std::vector<ScatteringProposal> proposals;
+  proposals.reserve(state_->activeCount());
+  Rgb passed = magnitudes(throughput);
+  double scattered = 0;
+  for (std::size_t i = 0; i < state_->activeCount(); ++i) {
+    const PlacedMedium m = state_->active(i);
+    ScatteringProposal& p =
+        proposals.emplace_back(m.medium->proposeScattering(segmentIn(m), throughput, random, counters));
+    passed *= p.passed;
+    if (!(p.pdf > 0)) p.scattered = 0;
+    scattered += p.scattered;
+  }
+  const auto passes = static_cast<double>(passed.r + passed.g + passed.b);
+  const double toPass = scattered > 0 ? std::max(passes / (passes + scattered), kLeastProbabilityToPass) : 1;
+  double u = random.rng().uniformDouble();
+  if (u < toPass) return {.weight = lightThrough(source, random, counters) * static_cast<float>(1 / toPass)};
+  u = (u - toPass) / (1 - toPass) * scattered;
+  std::size_t chosen = 0, last = 0;
+  for (; chosen < proposals.size() && u >= proposals[chosen].scattered; ++chosen)
+    u -= proposals[chosen].scattered;
+  for (std::size_t i = 0; i < proposals.size(); ++i) last = proposals[i].scattered > 0 ? i : last;
+  chosen = std::min(chosen, last);  // rounding of the sum
+  const ScatteringProposal& p = proposals[chosen];
+  const double pdf = (1 - toPass) * p.scattered / scattered * p.pdf;
+  const Rgb through = upTo(p.t).lightThrough(source, random, counters);
+  return {true, p.t, p.sigmaS * through * static_cast<float>(1 / pdf),
+          &state_->active(chosen).medium->phase(), chosen};
 }
 
 Rgb MediaStretch::scattering(double t, Vector3f wo, Vector3f wi, RenderCounters& counters) const {

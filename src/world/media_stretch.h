@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "base/pixel_stream.h"
 #include "base/ray.h"
@@ -19,6 +20,7 @@ struct MediumFlight {
   double t = 0;
   Rgb weight{1.0f};                      ///< as in FreeFlight
   const PhaseFunction* phase = nullptr;  ///< of the medium that collided
+  std::size_t medium = 0;                ///< its number among the active ones
 };
 
 /// A stretch of a ray on which the media stay the same, tMin < t < tMax, and all that they do together on it.
@@ -44,6 +46,14 @@ class MediaStretch {
   /// through up to there.
   /// `throughput`: of the path so far (Medium::sampleFreeFlight).
   MediumFlight sampleFreeFlight(Rgb throughput, PixelStream random, RenderCounters& counters) const;
+  /// The same for light on its way to where paths from a camera find it, by their laws: what is here a start
+  /// is where they end. Light of a collision at the start (`source`: the active medium that collided, or
+  /// emits) is dimmed by Medium::collisionShare, all other light by the transmittance, and of either the
+  /// media scatter sigma_s. So photons bring to a point what paths from there find, which under laws other
+  /// than the exponential is not what light that flew and collided as those paths do would bring. Under the
+  /// exponential law they do the same, and so does this.
+  MediumFlight sampleFlightOfLight(std::optional<std::size_t> source, Rgb throughput, PixelStream random,
+                                   RenderCounters& counters) const;
   /// What the media scatter at `t` from `wi` toward `wo` per length: the sum of sigma_s times the phase
   /// function. `wi` away from the point, as `wo`.
   Rgb scattering(double t, Vector3f wo, Vector3f wi, RenderCounters& counters) const;
@@ -68,6 +78,8 @@ class MediaStretch {
  private:
   /// In the space of an active medium's definition.
   Segment segmentIn(const PlacedMedium& m) const;
+  /// What sampleFlightOfLight says of the end.
+  Rgb lightThrough(std::optional<std::size_t> source, PixelStream random, RenderCounters& counters) const;
   MediumFlight nearestOfFlights(Rgb throughput, PixelStream random, RenderCounters& counters) const;
 
   const MediumState* state_;

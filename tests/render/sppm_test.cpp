@@ -78,6 +78,12 @@ const std::string kFlame =
     "] \"rgb Le\" [ 4 3 2 ] \"integer nx\" 2 \"integer ny\" 2 \"integer nz\" 3 \"point p0\" [ -.8 -.8 .2 ] "
     "\"point p1\" [ .8 .8 1.8 ] \"float density\" [ 1 0 .5 .2 0 1 .3 .7 .1 .9 .4 0 ]\n";
 
+const std::string kDavis = "\"string law\" \"davis\" \"float correlation\" 1.2 \"float beta\" .5";
+/// A medium with more parameters.
+std::string underLaw(const std::string& medium, const std::string& law) {
+  return medium.substr(0, medium.size() - 1) + ' ' + law + '\n';
+}
+
 /// A loose mat of strands under the lamp, in two directions.
 std::string strands() {
   std::string text;
@@ -166,6 +172,29 @@ INSTANTIATE_TEST_SUITE_P(
                       "\"float beta_n\" .6 " +
                       strands() + "AttributeEnd\n",
                   ""},
+        // Laws with a memory: what light does in a medium depends on where it entered, or scattered last.
+        SppmScene{"davisSmoke", underLaw(kSmoke, kDavis) + kRoom + ballOf(kInFog, .9) + kSky, ""},
+        SppmScene{"linearSmoke",
+                  underLaw(kSmoke, "\"string law\" \"linear\" \"float extent\" 1.5") + kRoom +
+                      ballOf(kInFog, .9) + kSky,
+                  ""},
+        SppmScene{"mixtureFlame",
+                  underLaw(kFlame,
+                           "\"string law\" \"mixture\" \"float weight\" .4 \"float thin\" 0 "
+                           "\"float thick\" 2") +
+                      kRoom + ballOf(kInFog, .7),
+                  ""},
+        SppmScene{
+            "pinkInFog",
+            underLaw(kSmoke,
+                     "\"string law\" \"pinknoise\" \"float correlation\" 1.5 \"string overlap\" \"add\"") +
+                "MakeNamedMedium \"n\" \"string type\" \"homogeneous\" \"string overlap\" \"add\" "
+                "\"rgb sigma_a\" [ .1 .1 .1 ] \"rgb sigma_s\" [ 1 1.4 1 ]\n" +
+                kRoom + ballOf(kInFog, .7) +
+                "AttributeBegin Material \"none\" MediumInterface \"n\" \"\" Translate .3 0 1.2 Shape "
+                "\"sphere\" \"float radius\" .6 AttributeEnd\n" +
+                kSun,
+            ""},
         SppmScene{"overlap",
                   "MakeNamedMedium \"n\" \"string type\" \"homogeneous\" \"string overlap\" \"add\" \"rgb "
                   "sigma_a\" [ .1 .1 .1 ] "
@@ -176,6 +205,16 @@ INSTANTIATE_TEST_SUITE_P(
                       kPoint,
                   ""}),
     [](const auto& value) { return std::string(value.param.name); });
+
+/// Negative control of agreement under laws: without its law the smoke is another.
+TEST(SppmUnderLaws, IsNotTheImageOfTheExponentialLaw) {
+  const auto sceneIn = [](const std::string& smoke) {
+    return SppmScene{"smoke", smoke + kRoom + ballOf(kInFog, .9) + kSky, ""};
+  };
+  const ZTest other = zTest(means(sceneOf(sceneIn(underLaw(kSmoke, kDavis)), sppm(.06), 8), 100, 4),
+                            means(sceneOf(sceneIn(kSmoke), "\"volpath\" \"integer maxdepth\" 4", 16), 1, 4));
+  EXPECT_GT(std::abs(other.z()), kMaxAbsZ) << other;
+}
 
 /// As many iterations and photons as PBRT-v3's image has. The truth is its path tracer's, of the same room:
 /// what either lacks of it is noise and blur, of which we must not have more.

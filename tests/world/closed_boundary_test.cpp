@@ -48,6 +48,11 @@ class WatchedMedium final : public Medium {
     watch(s);
     return fog_.sampleFreeFlight(s, throughput, random, counters);
   }
+  ScatteringProposal proposeScattering(const Segment& s, Rgb throughput, PixelStream random,
+                                       RenderCounters& counters) const override {
+    watch(s);
+    return fog_.proposeScattering(s, throughput, random, counters);
+  }
   const PhaseFunction& phase() const override { return fog_.phase(); }
   MediumPoint at(Point3f p, RenderCounters& counters) const override { return fog_.at(p, counters); }
   FlightControl flightControl(const Segment& s) const override { return fog_.flightControl(s); }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "integrators/sppm/photon_tracer.h"
 
+#include <algorithm>
+
+#include "base/bounds.h"
 #include "base/warp.h"
 #include "materials/bsdf.h"
 #include "materials/material.h"
@@ -11,6 +14,26 @@
 #include "world/visibility.h"
 
 namespace pbrtmedia {
+namespace {
+
+/// How far along an endless ray there may be something of the media of a state.
+double reachOf(const MediumState& state, const Ray& ray) {
+  double reach = 0;
+  for (std::size_t i = 0; i < state.activeCount(); ++i) {
+    const PlacedMedium m = state.active(i);
+    const Bounds3f box = m.medium->bounds();
+    if (box.isEmpty()) continue;
+    Segment line{ray.o, ray.d, 0, static_cast<double>(kInfinity)};
+    if (m.placement) line = m.placement->toObject(line, ray.time);
+    const auto within = clipToBox(Bounds3d{Vec3d(box.min), Vec3d(box.max)}, Vec3d(line.o), Vec3d(line.d),
+                                  line.tMin, line.tMax);
+    if (within) reach = std::max(reach, within->tMax);
+  }
+  return reach;
+}
+
+}  // namespace
+
 void PhotonTracer::trace(Photons& out) {
   if (!leaveLight()) return;
   for (;;) {
@@ -59,6 +82,9 @@ bool PhotonTracer::leaveMedium(const MediumLight& light, float probability, Poin
   const double pdf = light.pointPdf(ray_.o, setup_.time) * double{probability};
   if (!setup_.media || !(pdf > 0)) return false;
   state_ = setup_.media->stateAt(ray_.o, setup_.time, counters_);
+  for (std::size_t i = 0; i < state_.activeCount(); ++i) {
+    if (state_.active(i) == light.medium()) source_ = i;
+  }
   const Rgb emission = light.emissionAt(ray_.o, setup_.time, state_, counters_);
   power_ = emission * static_cast<float>(4 * double{kPi} / pdf);
   strength_ = largestChannel(power_);
@@ -73,6 +99,16 @@ MediumState PhotonTracer::stateAtLight(const Light& light) {
   if (!light.isAtInfinity() || state.isVacuum()) return state;
   Ray back = ray_;
   back.d = -ray_.d;
+  if (!state.isExponential()) {
+    // What is around the scene dims as a whole there: light starts behind it.
+    const double reach = reachOf(state, back);
+    if (reach < static_cast<double>(kInfinity)) {
+      ray_.o = Point3f(Vec3d(back.o) + reach * Vec3d(back.d));
+    } else {
+      power_ = Rgb();
+    }
+    return state;
+  }
   MediumState end = state;
   power_ *= shadowTransmittance(walkContext(), {back, {}}, end, PixelStream(rng_));
   return state;
@@ -91,6 +127,7 @@ PathEvent PhotonTracer::flyToEvent() {
     if (!hit || (scatterings_ == 0 && hit->isHider(hider_))) return PathEvent::End;
     if (!hit->primitive->material && !setup_.media) {
       walk.cross(*hit);
+      source_.reset();
       continue;
     }
     const SurfaceInteraction si = setup_.scene.surface(*hit, ray_);
@@ -102,17 +139,18 @@ PathEvent PhotonTracer::flyToEvent() {
     }
     start = planeAt(*hit, si, Vec3d(ray_.o) + walk.tEnd() * Vec3d(ray_.d), ray_.d, ray_.time);
     walk.cross(*hit, si);
+    source_.reset();
   }
 }
 
 /// Flies through the stretch at hand.
 bool PhotonTracer::collides(const MediaWalk& walk, const SceneHit* nearest, const BoundaryPlane& start) {
   const MediaStretch stretch = walk.stretch();
-  const MediumFlight flight = stretch.sampleFreeFlight(power_, PixelStream(rng_), counters_);
+  const MediumFlight flight = stretch.sampleFlightOfLight(source_, power_, PixelStream(rng_), counters_);
   power_ *= flight.weight;
   if (!flight.collided || power_.isBlack()) return false;
   medium_ = {scatterPointOn(setup_.scene, ray_, flight.t, stretch.tMax(), nearest, start, counters_),
-             flight.phase, stretch.sigmaS(flight.t, counters_)};
+             flight.phase, stretch.sigmaS(flight.t, counters_), flight.medium};
   return true;
 }
 
@@ -151,6 +189,7 @@ bool PhotonTracer::scatterInMedium(Photons& out) {
   if (!(sample.value > 0)) return false;
   startSegment(medium_.at.p, sample.wi, medium_.at.near, {});
   from_ = medium_.at;
+  source_ = medium_.number;
   return playRoulette();
 }
 
@@ -161,6 +200,7 @@ void PhotonTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plan
   startPlane_ = plane;
   rayStart_ = start;
   from_ = {};
+  source_.reset();
   ++scatterings_;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "base/pixel_stream.h"
@@ -33,8 +35,9 @@ struct Photons {
 };
 
 /// One light path from a light to its end, as `PathTracer` is one from the camera. Importance is scattered by
-/// Material::bsdf's adjoint; at each scattering roulette keeps the largest channel of the power at most what
-/// it was. Boundaries without material cost no depth.
+/// Material::bsdf's adjoint, and flies by MediaStretch::sampleFlightOfLight, so that photons are what paths
+/// from where they are would find, under any law; at each scattering roulette keeps the largest channel of
+/// the power at most what it was. Boundaries without material cost no depth.
 class PhotonTracer {
  public:
   /// `sampler`: started; gives the dimensions of the light and of the first scatterings, `rng` the rest.
@@ -48,6 +51,7 @@ class PhotonTracer {
     ScatterPoint at;
     const PhaseFunction* phase;
     Rgb sigmaS;
+    std::size_t number;  ///< of the medium that collided, among those of the state
   };
 
   bool leaveLight();
@@ -75,6 +79,8 @@ class PhotonTracer {
   BoundaryPlane startPlane_;
   ScatterPoint from_;  ///< where the ray starts, if in a medium
   MediumState state_;
+  /// Of those of the state, the medium whose collision or emission the light on this stretch comes from.
+  std::optional<std::size_t> source_;
   Rgb power_;
   float strength_ = 0;  ///< largest channel of the power where the ray starts
   int scatterings_ = 0;
