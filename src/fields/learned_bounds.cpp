@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "base/built_parts.h"
 #include "base/diagnostics.h"
@@ -63,7 +64,7 @@ void LearnedBounds::probe(Vec3d local, float density, double depthPerDensity) co
 }
 
 LearnedBounds::Tally LearnedBounds::takeTally() {
-  Tally tally;
+  Tally tally = std::exchange(elsewhere_, {});
   for (std::size_t i = 0; i < inForce_.storedCells(); ++i)
     tally.cut += cut_[i].exchange(0, std::memory_order_relaxed);
   for (std::size_t i = 0; i < kProbeSlots; ++i) {
@@ -71,6 +72,12 @@ LearnedBounds::Tally LearnedBounds::takeTally() {
     tally.depthCut += probes_[i].cut.exchange(0, std::memory_order_relaxed);
   }
   return tally;
+}
+
+void LearnedBounds::addTally(const Tally& tally) {
+  elsewhere_.cut += tally.cut;
+  elsewhere_.depthFound += tally.depthFound;
+  elsewhere_.depthCut += tally.depthCut;
 }
 
 std::vector<float> LearnedBounds::proposals() const {

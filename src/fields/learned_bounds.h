@@ -101,6 +101,8 @@ class LearnedBounds {
   void publish(const Tally& tally);
   /// Counting starts anew. Not thread-safe.
   Tally takeTally();
+  /// Look-ups that were made elsewhere under the bounds in force count here, too. Not thread-safe.
+  void addTally(const Tally& tally);
   /// Proposals so far as numbers, the larger the more telling: what is proposed by several, each for a part
   /// of the look-ups, is the largest of their numbers at each place.
   std::vector<float> proposals() const;
@@ -142,6 +144,7 @@ class LearnedBounds {
   /// Look-ups cut in this pass. One counter a cell, as threads would queue for a common one.
   std::unique_ptr<std::atomic<std::uint32_t>[]> cut_;
   std::unique_ptr<ProbeSum[]> probes_;  ///< by stored cell modulo kProbeSlots
+  Tally elsewhere_;
   LearningProgress progress_;
   bool isRestored_ = false;
 };

@@ -29,17 +29,6 @@ std::string shortest(Number value) {
 
 /// What derivatives cannot have, whatever their values.
 void checkScene(const Construction& scene, const std::string& variable) {
-  if (!scene.scene->learners().empty()) {
-    refuse(variable,
-           "medium \"" + std::string(scene.scene->learners().front()->name()) +
-               "\" learns its bounds while it is rendered, so that images at two values would differ "
-               "by more than the value; give it others (\"string bounds\" \"exact\" or \"constant\")");
-  }
-  const std::string name(scene.integrator->typeName());
-  if (const std::string why = scene.integrator->whyInOnePiece(); !why.empty()) {
-    refuse(variable, "images of integrator \"" + name + "\" cannot be subtracted sample by sample: " + why +
-                         "; those of \"bdpt\", \"volpath\" and \"path\" can");
-  }
   if (!scene.film->layers().isEmpty())
     refuse(variable, "layers (" + scene.film->layers().text() + ") are of one image; leave them out");
   const std::optional<ImageFormat> format = formatByExtension(scene.outfile);
@@ -55,7 +44,6 @@ void checkOptions(const Options& options) {
   const std::string& variable = options.derivative->variable;
   if (options.png)
     refuse(variable, "a PNG has no negative values; show the image by imgtool convert --signed");
-  if (options.boundsCache) refuse(variable, "the scenes learn no bounds, so --bounds-cache has none to keep");
   for (const auto& scene : options.scenes) {
     if (scene == "-") refuse(variable, "standard input can be read once only; name a file");
   }
@@ -77,7 +65,7 @@ DerivativeScenes::DerivativeScenes(Construction& scene, const DerivativeOptions&
   scene.film->keepNegatives();
   try {
     auto derivative = std::make_unique<DifferenceIntegrator>(
-        *scene.scene, *this, DifferenceSchedule(options.difference), options.samplesPerPass);
+        *integrator_, *this, DifferenceSchedule(options.difference), options.samplesPerPass);
     samplesPerPass_ = derivative->samplesPerPass(scene.sampler->samplesPerPixel());
     scene.integrator = std::move(derivative);
   } catch (const SceneError& e) {
@@ -109,7 +97,7 @@ SceneFamily::Member DerivativeScenes::at(double value) {
 void DerivativeScenes::check(const Construction& other, double value) const {
   if (haveSameFilm(*film_, *other.film) && scene_.pixelBounds == other.pixelBounds &&
       scene_.sampler->samplesPerPixel() == other.sampler->samplesPerPixel() &&
-      other.scene->learners().empty() && other.integrator->typeName() == integrator_->typeName())
+      other.integrator->typeName() == integrator_->typeName())
     return;
   refuse(variable_, "at " + variable_ + " = " + shortest(static_cast<float>(value)) +
                         " the film, the number of samples or the integrator is another than at " +

@@ -2,15 +2,19 @@
 #include "render/difference_integrator.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/hash.h"
 #include "base/interruption.h"
 #include "film/combination.h"
 #include "film/film.h"
 #include "render/pass_loop.h"
+#include "render/render_state.h"
+#include "render/shared_bounds.h"
 #include "samplers/sampler.h"
 
 namespace pbrtmedia {
@@ -19,6 +23,8 @@ namespace {
 /// By default an image has as many passes, or more: levels are drawn often enough, and scenes are not built
 /// for every sample.
 constexpr std::int64_t kUsualPasses = 64, kMostSamplesPerPass = 16;
+/// "part" in ASCII: keeps the random numbers of sums that start again apart from other uses of the seed.
+constexpr std::uint64_t kPartTag = 0x70617274;
 
 std::vector<double> valuesOf(const std::vector<DifferenceTerm>& terms) {
   std::vector<double> values;
@@ -49,12 +55,15 @@ class DifferenceIntegrator::Passes {
         schedule_(integrator.schedule_),
         film_(film),
         options_(options),
+        samplesPerPass_(options.samplesPerPass.value_or(1)),
+        bounds_(integrator.scene()),
+        rendersSums_(integrator.rendersSums_),
         loop_(
             integrator.scene(), options,
             {.end = std::min(options.samplesPerPixel.value_or(sampler.samplesPerPixel()), options.endSample),
              .samplesPerIndex = pixels(),
              .pixels = pixels(),
-             .mostPerPass = options.samplesPerPass.value_or(1)}) {}
+             .mostPerPass = integrator.takesSingleSamples_ ? 1 : samplesPerPass_}) {}
 
   RenderResult run() {
     return loop_.run([this](const Pass& pass) { return takeSamples(pass); },
@@ -69,7 +78,7 @@ class DifferenceIntegrator::Passes {
   }
 
   std::vector<UnitReport> takeSamples(const Pass& pass) {
-    const std::int64_t number = pass.first / *options_.samplesPerPass;
+    const std::int64_t number = pass.first / samplesPerPass_;
     terms_ = schedule_.terms(number);
     std::vector<double> values = valuesOf(terms_);
     // What the next pass needs too is not built again.
@@ -78,45 +87,115 @@ class DifferenceIntegrator::Passes {
     films_.clear();
     std::vector<UnitReport> reports;
     try {
+      std::vector<SceneFamily::Member> members;
       for (const DifferenceTerm& term : terms_) {
-        const SceneFamily::Member member = family_.at(term.value);
-        films_.push_back({&member.film, term.factor});
-        reports.push_back(reportOf(renderMember(member, pass), reports.empty()));
-        if (!reports.back().complete) return leftInside();
+        members.push_back(family_.at(term.value));
+        bounds_.lendTo(members.back().integrator.scene());
       }
+      startCarried();
+      if (members.front().integrator.rendersSums()) {
+        reports.push_back(reportOf(renderSum(members, pass), true));
+        films_.push_back({&members.front().film, 1});
+      } else {
+        for (std::size_t i = 0; i < members.size(); ++i) {
+          reports.push_back(reportOf(renderMember(i, members[i], pass), reports.empty()));
+          films_.push_back({&members[i].film, terms_[i].factor});
+          if (!reports.back().complete) break;
+        }
+      }
+      for (const SceneFamily::Member& member : members) bounds_.takeBackFrom(member.integrator.scene());
     } catch (const Interrupted&) {  // while a scene was built
       return leftInside();
     }
-    return reports;
+    return reports.back().complete ? reports : leftInside();
   }
 
   /// Sides of a difference that have not all samples are no difference.
   static std::vector<UnitReport> leftInside() { return std::vector<UnitReport>(1); }
 
-  RenderResult renderMember(const SceneFamily::Member& member, const Pass& pass) {
-    if (film_.hasHalves()) member.film.keepHalves();
-    member.film.restore(emptied(member.film));
+  /// What all scenes of a pass go on from.
+  void startCarried() {
+    if (!loop_.carried().empty()) return;
+    loop_.carried() = family_.at(schedule_.params().value).integrator.carriedAtStart(pixels());
+  }
+
+  RenderResult renderMember(std::size_t i, const SceneFamily::Member& member, const Pass& pass) {
+    RenderState start;
+    RenderOptions render = optionsOf(pass, i, start);
+    if (member.integrator.whyInOnePiece().empty()) {
+      render.start = nullptr;
+      render.firstSample = pass.first;
+    }
+    prepare(member.film);
+    RenderResult result = member.integrator.render(member.camera, member.sampler, member.film, render);
+    if (i == nearest()) carried_ = std::move(result.carried);
+    if (render.start) result.samplesTaken -= start.result.samplesTaken;
+    return result;
+  }
+
+  /// All scenes at once. Where they are others in each pass, each is a whole of its own.
+  RenderResult renderSum(std::span<const SceneFamily::Member> members, const Pass& pass) {
+    std::vector<ImageTerm> images;
+    for (std::size_t i = 0; i < members.size(); ++i)
+      images.push_back({members[i].integrator, members[i].camera, terms_[i].factor});
+    RenderState start;
+    RenderOptions render = optionsOf(pass, 0, start);
+    std::optional<std::int64_t> parts;
+    if (schedule_.params().debias != DifferenceSchedule::Debias::None) {
+      parts = kUsualPasses;  // whatever there are: the same samples however many follow
+      render.seed = hashCombine(options_.seed, kPartTag, static_cast<std::uint64_t>(pass.first));
+      start.result.carried.clear();
+    }
+    const SceneFamily::Member& first = members.front();
+    prepare(first.film);
+    RenderResult result = first.integrator.renderSum(images, parts, first.sampler, first.film, render);
+    carried_ = parts ? std::vector<double>() : std::move(result.carried);
+    result.samplesTaken -= start.result.samplesTaken;
+    return result;
+  }
+
+  void prepare(Film& film) const {
+    if (film_.hasHalves()) film.keepHalves();
+    film.restore(emptied(film));
+  }
+
+  /// Of the render of term `i`, which goes on from `start`.
+  RenderOptions optionsOf(const Pass& pass, std::size_t i, RenderState& start) {
+    start.result.carried = loop_.carried();
+    start.result.completedSamplesPerPixel = pass.first;
+    start.result.samplesTaken = static_cast<std::uint64_t>(pass.first) * pixels();
     RenderOptions render;
+    render.start = &start;
     render.seed = options_.seed;
     render.samplesPerPixel = options_.samplesPerPixel;
-    render.firstSample = pass.first;
     render.endSample = pass.first + pass.count;
     render.pixelBounds = options_.pixelBounds;
     render.tileSize = options_.tileSize;
     render.samplesPerPass = pass.count;
     render.stop = options_.stop;
     render.maxRecords = options_.maxRecords;
-    std::uint64_t counted = 0;
-    const std::uint64_t before = films_.size() - 1, all = terms_.size();
-    render.progress = [&](const RenderProgress& p) {
-      const std::uint64_t done = (before * p.samplesTotal + p.samplesDone) / all,
-                          known = before * p.samplesTotal / all + counted;
+    render.learnsBounds = false;
+    const std::uint64_t total = static_cast<std::uint64_t>(pass.count) * pixels();
+    const std::uint64_t all = rendersSums_ ? 1 : terms_.size();
+    render.progress = [this, i, total, all, counted = std::uint64_t{0}](const RenderProgress& p) mutable {
+      const std::uint64_t left = p.samplesTotal - std::min(p.samplesTotal, p.samplesDone),
+                          done = (i * total + total - std::min(total, left)) / all,
+                          known = i * total / all + counted;
       if (done <= known) return;
       loop_.count(done - known);
       counted += done - known;
       loop_.reportProgress();
     };
-    return member.integrator.render(member.camera, member.sampler, member.film, render);
+    return render;
+  }
+
+  /// Number of the term whose scene is nearest to that at the value: what it carries to its next pass is what
+  /// all do.
+  std::size_t nearest() const {
+    const auto distance = [&](const DifferenceTerm& term) {
+      return std::abs(term.value - schedule_.params().value);
+    };
+    return static_cast<std::size_t>(std::ranges::min_element(terms_, {}, distance) - terms_.begin());
   }
 
   /// `isFirst`: all members take the same samples, which count once.
@@ -135,7 +214,9 @@ class DifferenceIntegrator::Passes {
   }
 
   void addToFilm(bool isComplete) {
-    if (!isComplete || addCombination(film_, films_)) return;
+    if (!isComplete) return;
+    loop_.carried() = std::move(carried_);
+    if (addCombination(film_, films_)) return;
     throw SceneError({},
                      "the parameter of the derivative changes how samples count for pixels (filter, sampler, "
                      "film), and not only the light of the scene");
@@ -145,8 +226,12 @@ class DifferenceIntegrator::Passes {
   const DifferenceSchedule& schedule_;
   Film& film_;
   const RenderOptions& options_;
+  std::int64_t samplesPerPass_;        ///< that share step and level
   std::vector<DifferenceTerm> terms_;  ///< of the pass under way
   std::vector<FilmTerm> films_;        ///< their films, as far as they are rendered
+  std::vector<double> carried_;        ///< from them to the next pass
+  SharedBounds bounds_;
+  bool rendersSums_;
   PassLoop loop_;
 };
 

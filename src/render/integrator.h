@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +17,16 @@ class Camera;
 class Film;
 class Sampler;
 class Scene;
+class Integrator;
 struct RenderOptions;
 struct RenderResult;
+
+/// An image of a scene and its share of a sum.
+struct ImageTerm {
+  const Integrator& integrator;
+  const Camera& camera;
+  double factor;
+};
 
 /// Light transport: makes the image of a scene. Immutable after construction. Most integrators estimate
 /// radiance along rays (SamplingIntegrator); others walk chains or trace photons in a loop of their own over
@@ -49,6 +60,25 @@ class Integrator {
   /// Why the samples of an image cannot be taken in ranges apart from each other (RenderOptions::firstSample
   /// above 0), to stand after "cannot be rendered in parts: "; empty: they can.
   virtual std::string whyInOnePiece() const { return {}; }
+
+  // Sums of images of scenes that are almost the same, whose noise is to cancel, by integrators that render
+  // in one piece. They take one of these ways, or none.
+
+  /// Whether its samples are chosen by what they bring, so that those of several scenes can only be chosen in
+  /// common (renderSum).
+  virtual bool rendersSums() const { return false; }
+  /// As `render`, the sum of factor times the image that the integrator of each term, of the same type,
+  /// makes. `startsAgain`: this is a whole of its own, one of some so many of which the mean is wanted, not
+  /// one that goes on from RenderOptions::start; nothing: it does. The film gets negative splats.
+  virtual RenderResult renderSum(std::span<const ImageTerm> terms, std::optional<std::int64_t> startsAgain,
+                                 const Sampler& sampler, Film& film, const RenderOptions& options) const;
+  /// What RenderResult::carried is before the first pass, of so many pixels. Where there is something, passes
+  /// (each of one sample of a pixel) follow from it and their number alone, so that one scene can take it
+  /// from another.
+  virtual std::vector<double> carriedAtStart(std::uint64_t pixels) const {
+    (void)pixels;
+    return {};
+  }
 
  protected:
   explicit Integrator(const Scene& scene) : scene_(scene) {}

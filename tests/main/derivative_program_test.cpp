@@ -124,13 +124,6 @@ TEST_F(DerivativeProgram, RefusesWhatItIsNotOf) {
               "has negative values, which \"a.png\" would lose");
   expectFails("--derivative lamp --step .1 --layers depth", "layers (depth) are of one image");
   expectFails("--derivative lamp --step .1 --samples 0:2", "the samples of a pass share their step");
-  expectFails("--derivative lamp --step .1 --bounds-cache b", "no bounds");
-  write("", "\"mlt\"");
-  expectFails("--derivative lamp --step .1",
-              "images of integrator \"mlt\" cannot be subtracted sample by sample: the chains");
-  write("", "\"sppm\"");
-  expectFails("--derivative lamp --step .1",
-              "images of integrator \"sppm\" cannot be subtracted sample by sample: the radii");
   write("\"float scale\" $lamp");
   expectFails("--derivative lamp --step .1", "the film, the number of samples or the integrator is another");
   write("", "\"path\"", "Material \"glass\" \"float eta\" $lamp WorldEnd WorldBegin");
@@ -158,14 +151,21 @@ TEST_F(DerivativeProgram, TellsOfWholeNumbers) {
             std::string::npos);
 }
 
-TEST_F(DerivativeProgram, IsRefusedWhereBoundsAreLearned) {
+/// Bounds that are learned go on from checkpoints, and come from caches.
+TEST_F(DerivativeProgram, GoesOnWithBoundsThatBothSidesLearn) {
   write("", "\"volpath\"",
         "MakeNamedMedium \"m\" \"string type\" \"heterogeneous\" \"integer nx\" 1 \"integer ny\" 1 \"integer "
-        "nz\" 1 "
-        "\"float density\" 1 \"string bounds\" \"progressive\"\nAttributeBegin\nMediumInterface \"m\" "
-        "\"\"\nMaterial "
-        "\"\"\nShape \"sphere\"\nAttributeEnd\n");
-  expectFails("--derivative lamp --step .5", "medium \"m\" learns its bounds");
+        "nz\" 1 \"float density\" $lamp \"string bounds\" \"progressive\" \"integer warmup\" 0\n"
+        "AttributeBegin\nMediumInterface \"m\" \"\"\nMaterial \"\"\nShape \"sphere\"\nAttributeEnd\n");
+  const std::string common = "--derivative lamp --step .25 --debias single --pass-samples 2 --quiet ";
+  ASSERT_EQ(pbrt(common + "--spp 12 --outfile whole.pfm s.pbrt").status, 0);
+  ASSERT_EQ(pbrt(common + "--spp 6 --checkpoint c --outfile part.pfm s.pbrt").status, 0);
+  ASSERT_EQ(pbrt(common + "--spp 12 --resume c --outfile end.pfm s.pbrt").status, 0);
+  EXPECT_TRUE(folder_.read("whole.pfm") == folder_.read("end.pfm"));
+  EXPECT_TRUE(folder_.read("whole.pfm") != folder_.read("part.pfm"));
+  ASSERT_EQ(pbrt(common + "--spp 6 --bounds-cache b --outfile cached.pfm s.pbrt").status, 0);
+  ASSERT_EQ(pbrt(common + "--spp 6 --bounds-cache b --outfile cached.pfm s.pbrt").status, 0);
+  EXPECT_TRUE(folder_.read("cached.pfm") != folder_.read("part.pfm")) << "it begins with what was learned";
 }
 
 TEST_F(DerivativeProgram, IsShownInColours) {

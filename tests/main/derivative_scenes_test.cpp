@@ -10,59 +10,12 @@
 #include <sstream>
 #include <string>
 
-#include "main/derivative.h"
+#include "support/derivative_of.h"
 #include "support/render_scene.h"
 #include "support/statistics.h"
 
 namespace pbrtmedia::test {
 namespace {
-
-using Difference = DifferenceSchedule::Difference;
-using Debias = DifferenceSchedule::Debias;
-/// The text of a scene at a value, which is written to the last bit.
-using Text = std::function<std::string(const std::string& value)>;
-
-struct Derivative {
-  Image image;
-  RenderResult result;
-  std::size_t built = 0;
-};
-
-Derivative derivativeOf(const Text& text, const DerivativeOptions& options, const RenderSettings& settings) {
-  const ThreadLimit threads(settings.threads);
-  DerivativeOptions d = options;
-  d.variable = "x";
-  d.difference.value = static_cast<double>(static_cast<float>(d.difference.value));
-  d.difference.seed = settings.seed;
-  Construction scene = constructText(text(exactText(d.difference.value)), settings);
-  const DerivativeScenes scenes(
-      scene, d, [&](double value) { return constructText(text(exactText(value)), settings); });
-  RenderOptions loop;
-  loop.seed = settings.seed;
-  loop.tileSize = settings.tileSize;
-  loop.pixelBounds = scene.pixelBounds;
-  Derivative derivative;
-  derivative.result = scene.integrator->render(*scene.camera, *scene.sampler, *scene.film, loop);
-  derivative.image = scene.film->develop();
-  derivative.built = scenes.built();
-  return derivative;
-}
-
-/// The mean of a channel over the image.
-double meanOf(const Text& text, const DifferenceSchedule::Params& params, std::int64_t samples = 1,
-              std::uint64_t seed = 1) {
-  return imageMean(derivativeOf(text, {.difference = params, .samplesPerPass = 1},
-                                {.seed = seed, .samplesPerPixel = samples})
-                       .image);
-}
-
-/// Its means over images of independent seeds.
-RunningStats means(const Text& text, const DifferenceSchedule::Params& params, std::int64_t samples,
-                   std::uint64_t seeds) {
-  RunningStats all;
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) all.add(meanOf(text, params, samples, seed));
-  return all;
-}
 
 /// Down at the origin of the plane z = 0, from (0, 0, 5).
 std::string lookingDown(int resolution, const std::string& integrator) {

@@ -13,18 +13,30 @@ namespace pbrtmedia {
 
 /// What all chains of a render share.
 struct ChainSetup {
-  const BdptSetup& strategies;
-  const MediaTopology& media;
-  StrategyFilm on;
+  /// A scene of which an image is made, and its share of the sum of images.
+  struct Term {
+    const BdptSetup& strategies;
+    const MediaTopology& media;
+    StrategyFilm on;
+    int maxDepth;
+    float factor;
+  };
+  std::vector<Term> terms;  ///< mostly one, of factor 1
   const Film& film;
   float largeStepProbability;
   float sigma;
+
+  bool hasMedia() const;
+  bool isSum() const { return terms.size() > 1; }
 };
 
-/// A strategy sample and its size, in proportion to which chains visit it.
+/// A strategy sample and its size, in proportion to which chains visit it. Of a sum of images: what one point
+/// of primary sample space brings to each, times its factor, and the mean of the sizes that it has in all of
+/// them. So whatever brings anything to one of them is visited, and a splat over the size is bounded.
 struct SizedSample {
   StrategySample sample;
   float size = 0;
+  std::vector<StrategySample> elsewhere{};  ///< of a sum, on other places of the film
 };
 /// What the film does not take has no size.
 SizedSample sizedSample(const ChainSetup& setup, int depth, PrimarySampler& sampler,
@@ -39,7 +51,7 @@ class MarkovChain {
               RenderCounters& counters);
   /// From numbers that `save` wrote; `at` is moved behind them. Throws std::length_error for too few.
   MarkovChain(const ChainSetup& setup, std::uint64_t key, std::span<const double>& at);
-  void save(std::vector<double>& out) const;
+  void save(const ChainSetup& setup, std::vector<double>& out) const;
 
   /// Proposes a mutation and goes there or stays. Both ends give splats by the probability of being there, of
   /// `scale` over their size: that of where it stays is kept for `flush`.
@@ -48,6 +60,8 @@ class MarkovChain {
   void flush(float scale, SplatBuffer& splats);
 
  private:
+  void restoreElsewhere(std::span<const double>& at);
+
   PrimarySampler sampler_;
   int depth_;
   std::uint64_t key_;

@@ -25,6 +25,8 @@ namespace {
 constexpr std::uint64_t kBootstrapTag = 0x626f6f74, kChainTag = 0x63686169, kPickTag = 0x7069636b;
 /// Bootstrap samples of one unit of work.
 constexpr std::uint64_t kSamplesOfUnit = 1024;
+/// Bootstrap samples of a whole that is one of many, at least: chains are to have somewhere to start.
+constexpr std::int64_t kLeastBootstrap = 1000;
 /// Splats of one pass at most, bytes.
 constexpr std::size_t kPassBytes = std::size_t{64} << 20;
 constexpr std::size_t kSplatsPerMutation = 2;
@@ -34,20 +36,17 @@ constexpr std::size_t kSplatsPerMutation = 2;
 /// One render.
 class MltIntegrator::Mutations {
  public:
-  Mutations(const MltIntegrator& mlt, const Camera& camera, const Sampler& sampler, Film& film,
-            const RenderOptions& options)
+  /// `terms`: of MltIntegrator. `parts`: wholes of which this is one, and the bootstrap has its share.
+  Mutations(const MltIntegrator& mlt, std::span<const ImageTerm> terms, std::int64_t parts,
+            const Sampler& sampler, Film& film, const RenderOptions& options)
       : params_(mlt.params_),
         film_(film),
         options_(options),
         bounds_(options.pixelBounds ? intersect(film.sampleBounds(), *options.pixelBounds)
                                     : film.sampleBounds()),
         pixels_(static_cast<std::uint64_t>(bounds_.area())),
-        setup_{mlt.strategies_.setup(),
-               mlt.strategies_.media(),
-               {camera, bounds_, film.imageArea()},
-               film,
-               params_.largeStepProbability,
-               params_.sigma},
+        bootstrapSamples_(bootstrapOf(params_, parts)),
+        setup_{termsOf(terms, bounds_, film), film, params_.largeStepProbability, params_.sigma},
         loop_(
             mlt.scene(), options,
             {.end = std::min(options.samplesPerPixel.value_or(sampler.samplesPerPixel()), options.endSample),
@@ -64,12 +63,33 @@ class MltIntegrator::Mutations {
   }
 
  private:
+  static std::uint64_t bootstrapOf(const MltParams& params, std::int64_t parts) {
+    const std::int64_t all = params.bootstrapSamples;
+    return static_cast<std::uint64_t>(std::min(all, std::max(all / parts, kLeastBootstrap)));
+  }
+  static std::vector<ChainSetup::Term> termsOf(std::span<const ImageTerm> terms, const Bounds2i& bounds,
+                                               const Film& film) {
+    std::vector<ChainSetup::Term> all;
+    for (const ImageTerm& term : terms) {
+      const auto& mlt = dynamic_cast<const MltIntegrator&>(term.integrator);
+      all.push_back({mlt.strategies_.setup(),
+                     mlt.strategies_.media(),
+                     {term.camera, bounds, film.imageArea()},
+                     mlt.params_.maxDepth,
+                     static_cast<float>(term.factor)});
+    }
+    return all;
+  }
   std::int64_t mostPerPass() const {
-    const std::size_t perIndex =
-        static_cast<std::size_t>(std::max<std::uint64_t>(pixels_, 1)) * kSplatsPerMutation * sizeof(Splat);
+    const std::size_t perIndex = static_cast<std::size_t>(std::max<std::uint64_t>(pixels_, 1)) *
+                                 kSplatsPerMutation * setup_.terms.size() * sizeof(Splat);
     return static_cast<std::int64_t>(std::max<std::size_t>(1, kPassBytes / perIndex));
   }
-  std::uint64_t depths() const { return static_cast<std::uint64_t>(params_.maxDepth) + 1; }
+  std::uint64_t depths() const {
+    int most = 0;
+    for (const ChainSetup::Term& term : setup_.terms) most = std::max(most, term.maxDepth);
+    return static_cast<std::uint64_t>(most) + 1;
+  }
   std::uint64_t keyOf(std::size_t chain) const { return hashCombine(options_.seed, chain, kChainTag); }
   int depthOf(std::uint64_t bootstrapSample) const { return static_cast<int>(bootstrapSample % depths()); }
 
@@ -80,7 +100,7 @@ class MltIntegrator::Mutations {
     sampler.proposeLarge(hashCombine(options_.seed, n, kBootstrapTag));
     const std::uint64_t key = hashCombine(options_.seed, n % depths(), kBootstrapTag, kPickTag),
                         i = n / depths();
-    const auto count = static_cast<std::uint64_t>(params_.bootstrapSamples);
+    const std::uint64_t count = bootstrapSamples_;
     const std::array film{scrambledRadicalInverse<2>(i, count, hashCombine(key, 2)),
                           scrambledRadicalInverse<3>(i, count, hashCombine(key, 3))};
     const std::array strategy{scrambledRadicalInverse<5>(i, count, hashCombine(key, 5))};
@@ -108,7 +128,7 @@ class MltIntegrator::Mutations {
   /// The bootstrap: what paths bring on average, and where chains start.
   std::vector<UnitReport> start() {
     // Number n is of n mod depths scatterings.
-    const std::uint64_t count = static_cast<std::uint64_t>(params_.bootstrapSamples) * depths();
+    const std::uint64_t count = bootstrapSamples_ * depths();
     std::vector<float> sizes(count);
     std::vector<UnitReport> units((count + kSamplesOfUnit - 1) / kSamplesOfUnit);
     parallelFor(units.size(), [&](std::size_t unit) {
@@ -126,7 +146,7 @@ class MltIntegrator::Mutations {
     if (!areComplete(units)) return units;
     double sum = 0;
     for (const float size : sizes) sum += double{size};
-    mean_ = sum / params_.bootstrapSamples;
+    mean_ = sum / static_cast<double>(bootstrapSamples_);
     if (sum > 0) startChains(sizes, sum, units.front().counters);
     return units;
   }
@@ -200,7 +220,7 @@ class MltIntegrator::Mutations {
 
   void save(std::vector<double>& out) const {
     out = {mean_, static_cast<double>(chains_.size())};
-    for (const MarkovChain& chain : chains_) chain.save(out);
+    for (const MarkovChain& chain : chains_) chain.save(setup_, out);
   }
 
   void restore(std::span<const double> from) {
@@ -224,6 +244,7 @@ class MltIntegrator::Mutations {
   const RenderOptions& options_;
   Bounds2i bounds_;
   std::uint64_t pixels_;
+  std::uint64_t bootstrapSamples_;  ///< of each number of scatterings
   ChainSetup setup_;
   bool isStarted_ = false;
   double mean_ = 0;                  ///< size of a path, over all of primary sample space
@@ -246,7 +267,14 @@ MltIntegrator::~MltIntegrator() = default;
 
 RenderResult MltIntegrator::render(const Camera& camera, const Sampler& sampler, Film& film,
                                    const RenderOptions& options) const {
-  return Mutations(*this, camera, sampler, film, options).run();
+  const ImageTerm whole{*this, camera, 1};
+  return Mutations(*this, {&whole, 1}, 1, sampler, film, options).run();
+}
+
+RenderResult MltIntegrator::renderSum(std::span<const ImageTerm> terms,
+                                      std::optional<std::int64_t> startsAgain, const Sampler& sampler,
+                                      Film& film, const RenderOptions& options) const {
+  return Mutations(*this, terms, startsAgain.value_or(1), sampler, film, options).run();
 }
 
 std::string MltIntegrator::whyInOnePiece() const {

@@ -37,6 +37,11 @@ class MltIntegrator final : public Integrator {
                       const RenderOptions& options) const override;
   bool makesSplats() const override { return true; }
   std::string whyInOnePiece() const override;
+  /// By chains through the numbers that all terms' paths are made of, in proportion to the mean of what a
+  /// path brings to each.
+  bool rendersSums() const override { return true; }
+  RenderResult renderSum(std::span<const ImageTerm> terms, std::optional<std::int64_t> startsAgain,
+                         const Sampler& sampler, Film& film, const RenderOptions& options) const override;
 
  private:
   class Mutations;

@@ -100,14 +100,11 @@ class SppmIntegrator::Iterations {
                .samplesPerIndex = static_cast<std::uint64_t>(bounds_.area()),
                .pixels = static_cast<std::uint64_t>(bounds_.area())}) {
     CHECK(options.firstSample == 0 || !sppm.hasOwnRadii()) << sppm.whyInOnePiece();
-    const std::size_t numbers =
-        sppm.hasOwnRadii() ? static_cast<std::size_t>(bounds_.area()) * PixelRadii::kNumbers : 0;
+    std::vector<double> start = sppm.carriedAtStart(static_cast<std::uint64_t>(bounds_.area()));
     std::vector<double>& carried = loop_.carried();
-    if (carried.empty()) {
-      carried.resize(numbers);
-      PixelRadii(carried).start(sppm.params_.radius);
-    }
-    if (carried.size() != numbers) throw SceneError({}, "the checkpoint lacks the radii of \"sppm\"");
+    if (!carried.empty() && carried.size() != start.size())
+      throw SceneError({}, "the checkpoint lacks the radii of \"sppm\"");
+    if (carried.empty()) carried = std::move(start);
   }
 
   RenderResult run() {
@@ -309,6 +306,13 @@ SppmIntegrator::~SppmIntegrator() = default;
 RenderResult SppmIntegrator::render(const Camera& camera, const Sampler& sampler, Film& film,
                                     const RenderOptions& options) const {
   return Iterations(*this, camera, sampler, film, options).run();
+}
+
+std::vector<double> SppmIntegrator::carriedAtStart(std::uint64_t pixels) const {
+  if (!hasOwnRadii()) return {};
+  std::vector<double> numbers(pixels * PixelRadii::kNumbers);
+  PixelRadii(numbers).start(params_.radius);
+  return numbers;
 }
 
 std::string SppmIntegrator::whyInOnePiece() const {

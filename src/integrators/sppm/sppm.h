@@ -47,6 +47,8 @@ class SppmIntegrator final : public Integrator {
   RenderResult render(const Camera& camera, const Sampler& sampler, Film& film,
                       const RenderOptions& options) const override;
   std::string whyInOnePiece() const override;
+  /// Radii.
+  std::vector<double> carriedAtStart(std::uint64_t pixels) const override;
 
  private:
   class Iterations;
