@@ -2,6 +2,7 @@
 #include "accelerators/query.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "accelerators/few_shapes.h"
@@ -129,8 +130,11 @@ std::optional<Query::BorderStart> Query::borderStart(const Accelerator::Impl& wo
   Vec3d inward{};
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3d edge = corners[(i + 1) % 3] - corners[i], across = cross(normal, edge);
+    const double inside = dot(o - corners[i], across);
+    // Nearly always: `across` is no longer than the sum of its parts.
+    if (inside > 2 * rounding * (std::abs(across.x) + std::abs(across.y) + std::abs(across.z))) continue;
     const double size = length(across);
-    if (size > 0 && dot(o - corners[i], across) <= rounding * size) inward += across / size;
+    if (size > 0 && inside <= rounding * size) inward += across / size;
   }
   if (inward == Vec3d{}) return std::nullopt;
   // Into the triangle, and a little to the side to which the ray goes.

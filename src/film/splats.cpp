@@ -61,7 +61,6 @@ void Film::visitReached(const Splat& splat, int firstRow, int lastRow, const Vis
         splat.film.x < static_cast<float>(sampleBounds_.max.x)))
     return;
   const Point2i first = filter_.firstNeighbour(), last = filter_.lastNeighbour();
-  const double perIntegral = 1 / filter_.integral();
   const Point2i from = pixelOf(splat.film);
   const Point2f offset{splat.film.x - static_cast<float>(from.x), splat.film.y - static_cast<float>(from.y)};
   for (int y = std::max(firstRow, from.y - last.y); y <= std::min(lastRow, from.y - first.y); ++y) {
@@ -73,16 +72,17 @@ void Film::visitReached(const Splat& splat, int firstRow, int lastRow, const Vis
       visit(
           static_cast<std::size_t>(y - pixelBounds_.min.y) * static_cast<std::size_t>(pixelBounds_.width()) +
               static_cast<std::size_t>(x - pixelBounds_.min.x),
-          *weight * perIntegral);
+          double{*weight});
     }
   }
 }
 
 void Film::addSplatsToRows(std::span<const Splat* const> splats, int firstRow, int lastRow) {
+  const double perIntegral = 1 / filter_.integral();
   for (const Splat* splat : splats) {
     const bool isOfHalf = splat->isOdd && hasHalves();
     visitReached(*splat, firstRow, lastRow, [&](std::size_t pixel, double weight) {
-      const SplatSum value = weighted(splat->value, weight);
+      const SplatSum value = weighted(splat->value, weight * perIntegral);
       state_.splats[pixel] += value;
       if (isOfHalf) state_.oddSplats[pixel] += value;
     });
@@ -90,6 +90,7 @@ void Film::addSplatsToRows(std::span<const Splat* const> splats, int firstRow, i
 }
 
 void Film::addSquaresToRows(std::span<const Splat* const> splats, int firstRow, int lastRow) {
+  const double scale = 1 / filter_.integral();
   std::vector<std::pair<std::size_t, SplatSum>> ofPath;  // pixels and what the path brings there: few
   for (std::size_t first = 0, end = 0; first < splats.size(); first = end) {
     ofPath.clear();
@@ -98,7 +99,7 @@ void Film::addSquaresToRows(std::span<const Splat* const> splats, int firstRow, 
         const auto at =
             std::find_if(ofPath.begin(), ofPath.end(), [&](const auto& p) { return p.first == pixel; });
         SplatSum& sum = at != ofPath.end() ? at->second : ofPath.emplace_back(pixel, SplatSum{}).second;
-        sum += weighted(splats[end]->value, weight);
+        sum += weighted(splats[end]->value, weight * scale);
       });
     }
     for (const auto& [pixel, sum] : ofPath)

@@ -8,6 +8,7 @@
 #include "cameras/camera.h"
 #include "film/side_images.h"
 #include "film/splat_buffer.h"
+#include "integrators/bdpt/strands.h"
 #include "integrators/bdpt/subpath_tracer.h"
 
 namespace pbrtmedia {
@@ -15,13 +16,6 @@ namespace {
 
 bool areExponential(const Scene& scene) {
   return std::ranges::all_of(scene.media(), [](const Medium* m) { return m->isExponential(); });
-}
-
-bool hasStrands(const Scene& scene) {
-  const auto groups = scene.primitiveGroups();
-  return std::ranges::any_of(groups, [](const std::vector<const Primitive*>& group) {
-    return std::ranges::any_of(group, [](const Primitive* p) { return isStrand(*p); });
-  });
 }
 
 /// Whether there is vacuum far out.

@@ -22,6 +22,12 @@ struct BdptSetup {
   bool hasStrands;
   StrategyWeights weights;
   int sampledVertices = 4;  ///< of a subpath, that the Sampler serves; the others take the Rng
+  /// Subpaths of less weight than this, relative to their start, are thinned out by roulette, which their
+  /// weights need not know. Light that a thinned light subpath would have found is found by other strategies
+  /// as well; what a camera subpath loses is noise in a pixel of its own.
+  struct Roulette {
+    float camera = 0.3f, light = 1;
+  } roulette{};
 
   MediaWalk::Context walkContext(SampleContext& context) const {
     return {scene, media, context.counters, context.counters.rays, context.mismatches};

@@ -79,6 +79,16 @@ struct Subpath {
   LightPoint light{};       ///< fromLight
   double firstOthers = 0;   ///< the strategy that takes the first vertex away: 0 where it cannot be
   double beforeOthers = 0;  ///< those that take the light's point away too
+
+  std::size_t scatterings() const { return vertices.empty() ? 0 : vertices.back().number + 1; }
+};
+
+/// The way that a subpath goes behind its last vertex, or its start.
+struct SubpathWay {
+  Ray ray;
+  Rgb beta{1.0f};
+  Rgb depth;                ///< so far; by the control
+  double pdfDirection = 0;  ///< per solid angle, unless it is the first
 };
 
 }  // namespace pbrtmedia

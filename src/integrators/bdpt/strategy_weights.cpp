@@ -15,6 +15,10 @@ constexpr double kLeastSquared = 1e-30;
 /// Of passing, or of colliding at the end: the mean over the channels.
 double flightDensity(Rgb rate, Rgb depth) {
   double sum = 0;
+  if (depth.isBlack()) {
+    for (std::size_t c = 0; c < 3; ++c) sum += double{rate[c]};
+    return sum / 3;
+  }
   for (std::size_t c = 0; c < 3; ++c)
     sum += double{rate[c]} * std::exp(-double{std::min(depth[c], kMostDepth)});
   return sum / 3;

@@ -5,10 +5,10 @@
 
 #include "base/warp.h"
 #include "integrators/bdpt/light_surroundings.h"
+#include "integrators/bdpt/strands.h"
 #include "materials/bssrdf.h"
 #include "materials/material.h"
 #include "materials/subsurface_exit.h"
-#include "shapes/curves.h"
 #include "spectrum/largest_channel.h"
 #include "world/boundary_planes.h"
 #include "world/media_below.h"
@@ -17,8 +17,6 @@
 namespace pbrtmedia {
 namespace {
 
-/// Subpaths of less weight than this, relative to their start, are thinned out.
-constexpr float kRouletteWeight = 0.03f;
 constexpr std::size_t kMostReserved = 16;
 
 /// Density per solid angle of `wo` given `wi` relative to that of `wi` given `wo`, for a lobe without extent:
@@ -33,16 +31,13 @@ double specularPdfBack(const Bsdf& bsdf, const SurfaceInteraction& si, Vector3f 
 
 }  // namespace
 
-bool isStrand(const Primitive& primitive) { return dynamic_cast<const Curves*>(primitive.shape) != nullptr; }
-
 Subpath SubpathTracer::fromCamera(const Ray& ray, const MediumState& state, bool isSeen, WePdf pdf,
                                   FoundRadiance& found, bool looksBeyond) {
-  found.clear();
-  found_ = &found;
+  found_.emplace(setup_, context_, path_, way_, found);
   looksBeyond_ = looksBeyond;
   path_.firstOthers = isSeen ? 1 : 0;
   pdfCamera_ = pdf;
-  ray_ = ray;
+  way_.ray = ray;
   state_ = state;
   trace();
   return std::move(path_);
@@ -54,7 +49,7 @@ std::optional<Subpath> SubpathTracer::fromLight(const Ray& toCamera, const Mediu
   const LightSelector::Choice choice = setup_.startSelector->choose(toCamera.o, context_.sampler.get1D());
   const Point2f uPosition = context_.sampler.get2D(), uDirection = context_.sampler.get2D();
   if (setup_.scene.mediumLight(choice.light)) {
-    ray_.time = toCamera.time;
+    way_.ray.time = toCamera.time;
     if (!startInMedium(choice, uPosition, uDirection, toCamera.o, atCamera)) return std::nullopt;
     trace();
     return std::move(path_);
@@ -67,11 +62,11 @@ std::optional<Subpath> SubpathTracer::fromLight(const Ray& toCamera, const Mediu
   const PrimitiveId target = setup_.scene.lightTarget(choice.light);
   LightSurroundings around =
       surroundingsOf(setup_, target, light.isAtInfinity(), s.ray, s.normal, toCamera.o, atCamera, context_);
-  ray_ = s.ray;
+  way_.ray = s.ray;
   rayStart_ = around.start;
   startPlane_ = around.plane;
   state_ = std::move(around.state);
-  beta_ = s.radiance * (absDot(s.normal, s.ray.d) / pdf);
+  way_.beta = s.radiance * (absDot(s.normal, s.ray.d) / pdf);
   path_.light = {.index = choice.light,
                  .light = &light,
                  .p = s.ray.o,
@@ -86,25 +81,22 @@ std::optional<Subpath> SubpathTracer::fromLight(const Ray& toCamera, const Mediu
 bool SubpathTracer::startInMedium(const LightSelector::Choice& choice, Point2f uPosition, Point2f uDirection,
                                   Point3f camera, const MediumState& atCamera) {
   const MediumLight& light = *setup_.scene.mediumLight(choice.light);
-  ray_.o = light.samplePoint(uPosition, ray_.time);
-  ray_.d = sampleUniformSphere(uDirection);
+  way_.ray.o = light.samplePoint(uPosition, way_.ray.time);
+  way_.ray.d = sampleUniformSphere(uDirection);
   const double pdf =
-      double{choice.probability} * light.pointPdf(ray_.o, ray_.time) * StrategyWeights::kAnyDirection;
+      double{choice.probability} * light.pointPdf(way_.ray.o, way_.ray.time) * StrategyWeights::kAnyDirection;
   if (!setup_.media || !(pdf > 0)) return false;
-  state_ = surroundingsOf(setup_, PrimitiveId{}, false, ray_, Normal3f(), camera, atCamera, context_).state;
-  beta_ = light.emissionAt(ray_.o, ray_.time, state_, context_.counters) * static_cast<float>(1 / pdf);
-  path_.light = {.index = choice.light, .medium = &light, .p = ray_.o, .d = -ray_.d};
-  return !beta_.isBlack() && beta_.isFinite();
-}
-
-Contribution& SubpathTracer::foundHere() {
-  if (found_->size() <= scatterings_) found_->resize(scatterings_ + 1);
-  return (*found_)[scatterings_];
+  state_ =
+      surroundingsOf(setup_, PrimitiveId{}, false, way_.ray, Normal3f(), camera, atCamera, context_).state;
+  way_.beta =
+      light.emissionAt(way_.ray.o, way_.ray.time, state_, context_.counters) * static_cast<float>(1 / pdf);
+  path_.light = {.index = choice.light, .medium = &light, .p = way_.ray.o, .d = -way_.ray.d};
+  return !way_.beta.isBlack() && way_.beta.isFinite();
 }
 
 void SubpathTracer::trace() {
   path_.vertices.reserve(std::min(kMostReserved, static_cast<std::size_t>(setup_.maxDepth)));
-  firstSize_ = largestChannel(beta_);
+  firstSize_ = largestChannel(way_.beta);
   while (goOn() == Event::Vertex) {
     const bool isLast = !looksBeyond_ && seesOnlyEmission();
     const PathVertex& vertex = path_.vertices.back();
@@ -119,13 +111,13 @@ SubpathTracer::Event SubpathTracer::goOn() {
   if (seesOnlyEmission()) {
     if (!found_ || (!setup_.scene.hasVisibleEmitters() && !setup_.mediaEmit)) return Event::End;
   }
-  depth_ = {};
-  passedEmitters_.clear();
+  way_.depth = {};
+  if (found_) found_->startWay();
   const bool isFromCamera = found_ && path_.vertices.empty();
-  MediaWalk walk(
-      setup_.walkContext(context_), state_,
-      isFromCamera ? LineWalk::fromCamera(setup_.scene, ray_) : LineWalk(setup_.scene, ray_, rayStart_),
-      &from_);
+  MediaWalk walk(setup_.walkContext(context_), state_,
+                 isFromCamera ? LineWalk::fromCamera(setup_.scene, way_.ray)
+                              : LineWalk(setup_.scene, way_.ray, rayStart_),
+                 &from_);
   return follow(walk, startPlane_);
 }
 
@@ -138,7 +130,7 @@ SubpathTracer::Event SubpathTracer::follow(MediaWalk& walk, BoundaryPlane start)
     if (seesOnlyEmission()) {
       const bool blocked = nearest && nearest->primitive->material && !nearest->isEmitter();
       if (blocked || (!nearest && setup_.scene.infiniteLights().empty())) {
-        if (setup_.mediaEmit) collectMediumEmission(walk.stretch());
+        if (setup_.mediaEmit) found_->addMedia(walk.stretch(), state_);
         return Event::End;
       }
     }
@@ -148,7 +140,7 @@ SubpathTracer::Event SubpathTracer::follow(MediaWalk& walk, BoundaryPlane start)
     }
     const std::optional<SceneHit> hit = walk.next();
     if (!hit) {
-      if (found_) collectBackground();
+      if (found_) found_->addBackground();
       return Event::End;
     }
     if (hider != PrimitiveId::kNone && hit->isHider(hider)) return Event::End;
@@ -157,8 +149,8 @@ SubpathTracer::Event SubpathTracer::follow(MediaWalk& walk, BoundaryPlane start)
       walk.cross(*hit);
       continue;
     }
-    const SurfaceInteraction si = setup_.scene.surface(*hit, ray_);
-    if (found_ && hit->isEmitter()) collectHit(*hit, si);
+    const SurfaceInteraction si = setup_.scene.surface(*hit, way_.ray);
+    if (found_ && hit->isEmitter()) found_->addHit(*hit, si);
     if (scatters) {
       if (seesOnlyEmission()) return Event::End;
       if (path_.fromLight && setup_.hasStrands && isStrand(*hit->primitive)) return Event::End;
@@ -166,7 +158,8 @@ SubpathTracer::Event SubpathTracer::follow(MediaWalk& walk, BoundaryPlane start)
       return Event::Vertex;
     }
     if (setup_.media) {
-      start = planeAt(*hit, si, Vec3d(ray_.o) + walk.tEnd() * Vec3d(ray_.d), ray_.d, ray_.time);
+      start =
+          planeAt(*hit, si, Vec3d(way_.ray.o) + walk.tEnd() * Vec3d(way_.ray.d), way_.ray.d, way_.ray.time);
     }
     walk.cross(*hit, si);
   }
@@ -175,17 +168,17 @@ SubpathTracer::Event SubpathTracer::follow(MediaWalk& walk, BoundaryPlane start)
 /// The media between two surfaces, `hit` the one at the end. True: the path passes.
 bool SubpathTracer::passMedium(const MediaStretch& stretch, const SceneHit* hit, const BoundaryPlane& start,
                                Event& event) {
-  if (found_ && setup_.mediaEmit) collectMediumEmission(stretch);
+  if (found_ && setup_.mediaEmit) found_->addMedia(stretch, state_);
   if (seesOnlyEmission()) {
-    beta_ *= stretch.transmittance(context_.stream(), context_.counters);
-    depth_ += stretch.control().depth;
-    return !beta_.isBlack();
+    way_.beta *= stretch.transmittance(context_.stream(), context_.counters);
+    way_.depth += stretch.control().depth;
+    return !way_.beta.isBlack();
   }
-  const MediumFlight flight = stretch.sampleFreeFlight(beta_, context_.stream(), context_.counters);
-  beta_ *= flight.weight;
-  if (beta_.isBlack()) return false;
+  const MediumFlight flight = stretch.sampleFreeFlight(way_.beta, context_.stream(), context_.counters);
+  way_.beta *= flight.weight;
+  if (way_.beta.isBlack()) return false;
   if (!flight.collided) {
-    depth_ += stretch.control().depth;
+    way_.depth += stretch.control().depth;
     return true;
   }
   addMediumVertex(stretch, flight, hit, start);
@@ -200,19 +193,19 @@ bool SubpathTracer::passMedium(const MediaStretch& stretch, const SceneHit* hit,
 void SubpathTracer::addMediumVertex(const MediaStretch& stretch, const MediumFlight& flight,
                                     const SceneHit* hit, const BoundaryPlane& start) {
   const FlightControl control = stretch.upTo(flight.t).control();
-  depth_ += control.depth;
-  PathVertex vertex;
-  vertex.at = scatterPointOn(setup_.scene, ray_, flight.t, stretch.tMax(), hit, start, context_.counters);
+  way_.depth += control.depth;
+  PathVertex& vertex = addVertex();
+  vertex.at = scatterPointOn(setup_.scene, way_.ray, flight.t, stretch.tMax(), hit, start, context_.counters);
   vertex.p = vertex.at.p;
   vertex.phase = flight.phase;
-  vertex.wo = -ray_.d;
+  vertex.wo = -way_.ray.d;
   const float mean = control.rate.average();
   if (mean > 0) vertex.rate = control.rate / mean;
-  addVertex(std::move(vertex));
+  findDensity();
 }
 
 void SubpathTracer::addSurfaceVertex(MediaWalk& walk, const SceneHit& hit, const SurfaceInteraction& si) {
-  PathVertex vertex;
+  PathVertex& vertex = addVertex();
   vertex.hit = hit;
   vertex.si = si;
   if (setup_.media && setup_.scene.hasMediumBoundaries()) vertex.coincident = walk.coincidentWith(hit, si);
@@ -221,31 +214,42 @@ void SubpathTracer::addSurfaceVertex(MediaWalk& walk, const SceneHit& hit, const
   if (hit.primitive->material->hasBssrdf()) vertex.bsdf.separateSubsurface();
   vertex.p = si.p;
   vertex.wo = si.wo;
-  addVertex(std::move(vertex));
+  findDensity();
 }
 
-void SubpathTracer::addVertex(PathVertex vertex) {
-  vertex.beta = beta_;
+/// With what the way brings. In place, as vertices are large.
+PathVertex& SubpathTracer::addVertex() {
+  const std::size_t number = path_.scatterings();
+  PathVertex& vertex = path_.vertices.emplace_back();
+  vertex.number = number;
+  vertex.beta = way_.beta;
   vertex.state = state_;
-  vertex.depth = depth_;
-  if (!path_.vertices.empty()) {
-    vertex.pdf = StrategyWeights::arrival(pdfDirection_, path_.vertices.back().p, vertex, depth_);
+  vertex.depth = way_.depth;
+  return vertex;
+}
+
+/// Of the last vertex, which is complete otherwise.
+void SubpathTracer::findDensity() {
+  PathVertex& vertex = path_.vertices.back();
+  const std::size_t before = path_.vertices.size() - 1;
+  if (before > 0) {
+    vertex.pdf =
+        StrategyWeights::arrival(way_.pdfDirection, path_.vertices[before - 1].p, vertex, way_.depth);
   } else if (found_) {
     // Where light subpaths do not find the camera, all strategies share this factor.
-    vertex.pdf =
-        path_.firstOthers > 0 ? StrategyWeights::arrival(pdfCamera_, ray_.o, ray_.d, vertex, depth_) : 1;
+    vertex.pdf = path_.firstOthers > 0
+                     ? StrategyWeights::arrival(pdfCamera_, way_.ray.o, way_.ray.d, vertex, way_.depth)
+                     : 1;
   } else {
     LightPoint& light = path_.light;
-    if (light.medium) light.directionDensity = light.medium->directionPdf(vertex.p, light.d, ray_.time);
-    light.emitted = setup_.weights.emitted(light, vertex.p, ray_.time);
-    vertex.pdf = setup_.weights.departure(light, vertex, depth_, ray_.time);
+    if (light.medium) light.directionDensity = light.medium->directionPdf(vertex.p, light.d, way_.ray.time);
+    light.emitted = setup_.weights.emitted(light, vertex.p, way_.ray.time);
+    vertex.pdf = setup_.weights.departure(light, vertex, way_.depth, way_.ray.time);
     path_.firstOthers = squaredRatio(setup_.weights.looked(light, vertex.p), light.emitted);
   }
   if (found_ && setup_.hasStrands && vertex.isOnSurface() && isStrand(*vertex.hit.primitive)) {
     vertex.pdf = double{kInfinity};
   }
-  vertex.number = scatterings_++;
-  path_.vertices.push_back(std::move(vertex));
 }
 
 /// Chooses the way from the last vertex; false: the subpath ends there.
@@ -260,8 +264,8 @@ bool SubpathTracer::scatterOnSurface(PathVertex& vertex) {
   const SurfaceInteraction& si = vertex.si;
   const BsdfSample sample = vertex.bsdf.sample(si.wo, samples_.get2D());
   if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
-  beta_ *= sample.f * (absDot(sample.wi, vertex.bsdf.shadingNormal()) / sample.pdf);
-  if (beta_.isBlack()) return false;
+  way_.beta *= sample.f * (absDot(sample.wi, vertex.bsdf.shadingNormal()) / sample.pdf);
+  if (way_.beta.isBlack()) return false;
   return any(sample.flags & BsdfFlags::Subsurface) ? scatterBelowSurface() : leaveSurface(vertex, sample);
 }
 
@@ -274,14 +278,15 @@ bool SubpathTracer::scatterBelowSurface() {
   const std::optional<Bssrdf> bssrdf = material.bssrdf(entry.si);
   if (!bssrdf) return false;
   const float uWay = samples_.get1D();
-  const std::optional<SubsurfaceEmergence> out = sampleEmergence(
-      setup_.scene, *bssrdf, entry.si, ray_.time, material, uWay, samples_.get2D(), context_.counters.rays);
+  const std::optional<SubsurfaceEmergence> out =
+      sampleEmergence(setup_.scene, *bssrdf, entry.si, way_.ray.time, material, uWay, samples_.get2D(),
+                      context_.counters.rays);
   if (!out) return false;
-  beta_ *= out->weight;
-  if (beta_.isBlack()) return false;
+  way_.beta *= out->weight;
+  if (way_.beta.isBlack()) return false;
   if (setup_.media && setup_.scene.hasMediumBoundaries()) {
     passMediaBelow(setup_.walkContext(context_), state_, {entry.hit, entry.si, entry.coincident}, *out,
-                   ray_.time);
+                   way_.ray.time);
   }
   PathVertex exit;
   exit.number = entry.number;
@@ -292,21 +297,21 @@ bool SubpathTracer::scatterBelowSurface() {
   exit.bsdf.add(Lobe(Rgb(1), RareLobe(SubsurfaceExit(bssrdf->eta(), /*isRadiance=*/true))));
   exit.p = exit.si.p;
   exit.wo = exit.si.wo;
-  exit.beta = beta_;
+  exit.beta = way_.beta;
   exit.state = state_;
   exit.pdf = double{kInfinity};
   path_.vertices.push_back(std::move(exit));
   PathVertex& vertex = path_.vertices.back();
   const BsdfSample sample = vertex.bsdf.sample(vertex.wo, samples_.get2D());
   if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
-  beta_ *= sample.f * (absDot(sample.wi, vertex.bsdf.shadingNormal()) / sample.pdf);
+  way_.beta *= sample.f * (absDot(sample.wi, vertex.bsdf.shadingNormal()) / sample.pdf);
   return leaveSurface(vertex, sample);
 }
 
 bool SubpathTracer::leaveSurface(PathVertex& vertex, const BsdfSample& sample) {
   const SurfaceInteraction& si = vertex.si;
   vertex.isSpecular = any(sample.flags & BsdfFlags::Specular);
-  pdfDirection_ = vertex.isSpecular ? 1 : double{sample.pdf};
+  way_.pdfDirection = vertex.isSpecular ? 1 : double{sample.pdf};
   setup_.weights.scattersOn(path_, vertex.isSpecular ? specularPdfBack(vertex.bsdf, si, sample.wi)
                                                      : double{vertex.bsdf.pdf(sample.wi, si.wo)});
   if (setup_.media) {
@@ -314,128 +319,41 @@ bool SubpathTracer::leaveSurface(PathVertex& vertex, const BsdfSample& sample) {
                                context_.mismatches);
   }
   startPlane_ = {};
-  if (!state_.isVacuum()) startPlane_ = planeAt(vertex.hit, si, Vec3d(si.p), sample.wi, ray_.time);
+  if (!state_.isVacuum()) startPlane_ = planeAt(vertex.hit, si, Vec3d(si.p), sample.wi, way_.ray.time);
   rayStart_ = vertex.coincident.startingWith(vertex.hit.hit.id);
   from_ = {};
-  ray_.o = si.p;
-  ray_.d = sample.wi;
-  ray_.tMax = kInfinity;
+  way_.ray.o = si.p;
+  way_.ray.d = sample.wi;
+  way_.ray.tMax = kInfinity;
   return playRoulette();
 }
 
 bool SubpathTracer::scatterInMedium(PathVertex& vertex) {
   ++context_.counters.mediumScatterings;
-  if (inPlace_.isStuck(ray_.o, vertex.at)) {
+  if (inPlace_.isStuck(way_.ray.o, vertex.at)) {
     ++context_.counters.stuckPaths;
     return false;
   }
   const PhaseFunction::Sample sample = vertex.phase->sample(vertex.wo, samples_.get2D());
   if (!(sample.value > 0)) return false;
-  pdfDirection_ = double{sample.value};
+  way_.pdfDirection = double{sample.value};
   setup_.weights.scattersOn(path_, double{vertex.phase->evaluate(sample.wi, vertex.wo)});
   startPlane_ = vertex.at.near;
   rayStart_ = {};
   from_ = vertex.at;
-  ray_.o = vertex.p;
-  ray_.d = sample.wi;
-  ray_.tMax = kInfinity;
+  way_.ray.o = vertex.p;
+  way_.ray.d = sample.wi;
+  way_.ray.tMax = kInfinity;
   return playRoulette();
 }
 
 bool SubpathTracer::playRoulette() {
-  const float survival = largestChannel(beta_) / (kRouletteWeight * firstSize_);
+  const float weight = path_.fromLight ? setup_.roulette.light : setup_.roulette.camera;
+  const float survival = largestChannel(way_.beta) / (weight * firstSize_);
   if (!(survival < 1)) return true;
   if (context_.rng.uniform() >= survival) return false;
-  beta_ /= survival;
+  way_.beta /= survival;
   return true;
-}
-
-/// What the media emit between two surfaces. Other strategies find what is where their light samples look.
-void SubpathTracer::collectMediumEmission(const MediaStretch& stretch) {
-  for (std::size_t i = 0; i < state_.activeCount(); ++i) {
-    const PlacedMedium m = state_.active(i);
-    if (!m.medium->isEmissive()) continue;
-    const EmissionSamples found = stretch.sampleEmission(i, context_.stream(), context_.counters);
-    if (found.count == 0) continue;
-    const auto number = path_.vertices.empty() ? std::nullopt : setup_.scene.lightOf(m);
-    const MediumLight* const light = number ? setup_.scene.mediumLight(*number) : nullptr;
-    const auto span = light ? light->span(ray_.o, ray_.d, ray_.time) : std::nullopt;
-    LightPoint point;
-    if (span) {
-      point = {.index = *number,
-               .medium = light,
-               .d = ray_.d,
-               .directionDensity = light->directionPdf(ray_.o, ray_.d, ray_.time)};
-    }
-    for (const EmissionSamples::Sample& e : found) {
-      double weight = 1;
-      if (span && e.t >= span->tMin && e.t <= span->tMax) {
-        point.p = Point3f(Vec3d(ray_.o) + e.t * Vec3d(ray_.d));
-        weight = weightOf(point, depth_ + stretch.upTo(e.t).control().depth);
-      }
-      foundHere().add(beta_ * e.radiance, weight);
-    }
-  }
-}
-
-/// An emitter without material illuminates by its side that is met first. Directly seen are all.
-void SubpathTracer::collectHit(const SceneHit& hit, const SurfaceInteraction& si) {
-  bool isHidden = false;
-  if (hit.light != SceneHit::kNoLight && !hit.primitive->material) {
-    isHidden = std::ranges::find(passedEmitters_, hit.hit.id.geometry) != passedEmitters_.end();
-    if (!isHidden) passedEmitters_.push_back(hit.hit.id.geometry);
-  }
-  const Rgb emitted = hit.areaLight().emitted(si.n, si.wo);
-  if (emitted.isBlack()) return;
-  double weight = 1;
-  if (isHidden || hit.light == SceneHit::kNoLight) {
-    weight = isDirect() ? 1 : 0;
-  } else if (!path_.vertices.empty()) {
-    weight = weightOf({.index = hit.light,
-                       .light = setup_.scene.lights()[hit.light],
-                       .p = si.p,
-                       .n = si.n,
-                       .d = ray_.d,
-                       .isArea = true},
-                      depth_);
-  }
-  foundHere().add(beta_ * emitted, weight);
-}
-
-void SubpathTracer::collectBackground() {
-  for (const std::uint32_t index : setup_.scene.infiniteLights()) {
-    const Light* const light = setup_.scene.lights()[index];
-    const Rgb background = light->background(ray_.d);
-    if (background.isBlack()) continue;
-    const double weight =
-        path_.vertices.empty() ? 1 : weightOf({.index = index, .light = light, .d = ray_.d}, depth_);
-    foundHere().add(beta_ * background, weight);
-  }
-}
-
-/// Of the light that the way at hand has found, behind that depth of it.
-double SubpathTracer::weightOf(const LightPoint& light, Rgb depth) const {
-  const StrategyWeights& weights = setup_.weights;
-  const PathVertex& last = path_.vertices.back();
-  if (light.isSplit()) {
-    if (last.isSpecular) return 1;
-    const float pdf = weights.lookedDirection(light, last.p);
-    return double{powerHeuristic(static_cast<float>(pdfDirection_), pdf)};
-  }
-  const double found = StrategyWeights::arrival(pdfDirection_, last.p, light, depth);
-  double others = last.isSpecular ? 0 : squaredRatio(weights.looked(light, last.p), found);
-  const std::size_t count = path_.vertices.size();
-  const double taken = squaredRatio(weights.emitted(light, last.p, ray_.time), found) *
-                       squaredRatio(weights.departure(light, last, depth, ray_.time), last.pdf);
-  if (taken > 0) {
-    if (count == 1) {
-      others += taken * (last.isSpecular ? 0 : path_.firstOthers);
-    } else {
-      const PathVertex& before = path_.vertices[count - 2];
-      others += taken * ((last.isSpecular || before.isSpecular ? 0 : 1) + before.others);
-    }
-  }
-  return 1 / (1 + others);
 }
 
 }  // namespace pbrtmedia

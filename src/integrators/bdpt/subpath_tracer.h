@@ -2,22 +2,14 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "integrators/bdpt/bdpt_setup.h"
-#include "integrators/bdpt/contribution.h"
+#include "integrators/bdpt/found_emission.h"
 #include "integrators/bdpt/path_vertex.h"
 #include "integrators/path/path_samples.h"
 #include "materials/transport_mode.h"
 
 namespace pbrtmedia {
-
-/// Radiance that a camera subpath finds by itself, by the number of its scatterings up to the last that finds
-/// some: strategies without a vertex from the light's end.
-/// Whether a surface is that of curves (BdptSetup::hasStrands).
-bool isStrand(const Primitive& primitive);
-
-using FoundRadiance = std::vector<Contribution>;
 
 /// Walks one subpath, from the camera or from a light. Boundaries without material are crossed on the way and
 /// are no vertices.
@@ -25,6 +17,8 @@ class SubpathTracer {
  public:
   SubpathTracer(const BdptSetup& setup, SampleContext& context)
       : setup_(setup), context_(context), samples_(context.sampler, context.rng, setup.sampledVertices) {}
+  SubpathTracer(const SubpathTracer&) = delete;
+  SubpathTracer& operator=(const SubpathTracer&) = delete;
 
   /// With up to setup.maxDepth scatterings, and a last way that only looks for emission, unless `looksBeyond`
   /// is false. `isSeen`: light subpaths find the camera too where this ray starts; `pdf` is its density.
@@ -42,7 +36,8 @@ class SubpathTracer {
   void addMediumVertex(const MediaStretch& stretch, const MediumFlight& flight, const SceneHit* hit,
                        const BoundaryPlane& start);
   void addSurfaceVertex(MediaWalk& walk, const SceneHit& hit, const SurfaceInteraction& si);
-  void addVertex(PathVertex vertex);
+  PathVertex& addVertex();
+  void findDensity();
   bool scatter();
   bool scatterOnSurface(PathVertex& vertex);
   bool scatterBelowSurface();
@@ -51,38 +46,26 @@ class SubpathTracer {
   bool playRoulette();
   void trace();
 
-  void collectMediumEmission(const MediaStretch& stretch);
-  void collectHit(const SceneHit& hit, const SurfaceInteraction& si);
-  void collectBackground();
-  double weightOf(const LightPoint& light, Rgb depth) const;
   bool startInMedium(const LightSelector::Choice& choice, Point2f uPosition, Point2f uDirection,
                      Point3f camera, const MediumState& atCamera);
 
-  bool seesOnlyEmission() const { return static_cast<int>(scatterings_) >= setup_.maxDepth; }
-  bool isDirect() const { return path_.vertices.empty() || path_.vertices.back().isSpecular; }
-  /// What the subpath finds after as many scatterings as there are now.
-  Contribution& foundHere();
+  bool seesOnlyEmission() const { return static_cast<int>(path_.scatterings()) >= setup_.maxDepth; }
 
   const BdptSetup& setup_;
   SampleContext& context_;
   PathSamples samples_;
-  FoundRadiance* found_ = nullptr;  ///< of a path from the camera
-  bool looksBeyond_ = false;        ///< a last way looks for emission
+  std::optional<FoundEmission> found_;  ///< of a path from the camera
+  bool looksBeyond_ = false;            ///< a last way looks for emission
 
   // The way at hand.
-  Ray ray_;
+  SubpathWay way_;
   Exclusions rayStart_;
   BoundaryPlane startPlane_;
   ScatterPoint from_;
   MediumState state_;
-  Rgb beta_{1.0f};
-  Rgb depth_;                                  ///< of the way at hand, so far; by the control
-  WePdf pdfCamera_{};                          ///< of the first way from the camera
-  double pdfDirection_ = 0;                    ///< per solid angle, of the others
-  float firstSize_ = 1;                        ///< of `beta_` at the start
-  std::vector<std::uint32_t> passedEmitters_;  ///< without material, by PrimitiveId::geometry
+  WePdf pdfCamera_{};    ///< of the first way from the camera
+  float firstSize_ = 1;  ///< of the way's `beta` at the start
   ScatteringsInPlace inPlace_;
-  std::size_t scatterings_ = 0;  ///< so far
 
   Subpath path_;
 };

@@ -15,6 +15,9 @@ namespace {
 
 using Stream = PrimarySampler::Stream;
 
+/// Chains stay where roulette leaves much weight: only what is next to nothing is thinned out.
+constexpr float kRouletteWeight = 0.03f;
+
 /// A raster position, uniform over the pixels.
 Point2f positionIn(const Bounds2i& bounds, Point2f u) {
   const auto along = [](int min, int max, float t) {
@@ -129,6 +132,7 @@ class Finder {
     BdptSetup setup = setup_;
     setup.maxDepth = vertices;
     setup.sampledVertices = std::numeric_limits<int>::max();
+    setup.roulette = {kRouletteWeight, kRouletteWeight};
     return setup;
   }
 
