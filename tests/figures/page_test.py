@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from figurekit.catalogue import FOLDER, Entry, Figure, all_figures
+from figurekit.catalogue import FOLDER, PAPERS, Entry, Figure, all_figures
 from figurekit.not_there import NOT_THERE
-from figurekit.page import MOST_BYTES, page_text
+from figurekit.page import MOST_BYTES, page_text, verdict_lines
 from figurekit.plotting import MOST_BYTES as MOST_OF_ONE
 from figurekit.plotting import shrink
+from figurekit.programs import FigureError
 
 DOCS = FOLDER.parent.parent / "docs"
 
@@ -44,6 +45,25 @@ class PageTest(unittest.TestCase):
                      "1 figures, 2 claims: 1 reproduced, 1 not reproduced, 0 cannot be tested", "What was reported.", "figures/misso-2022-03-time.png"):
             self.assertIn(text, page)
 
+    def test_verdicts_are_counted_from_the_page(self):
+        entries = [Entry(name, Figure("a | title", "Reported.", "Ours."), lambda run: None, Path("x.py")) for name in ("misso-2022-03", "misso-2023-09")]
+        outcomes = {"misso-2022-03": ["reproduced", "not reproduced", "reproduced"], "misso-2023-09": ["cannot be tested"]}
+        page = page_text(entries, {n: {"compared": 0, "verdicts": [{"claim": "c", "number": "1", "outcome": o, "why": ""} for o in found]} for n, found in outcomes.items()})
+        lines = verdict_lines(page, entries)
+        self.assertRegex(lines[0], r"^misso-2022-03 +2 reproduced, 1 not reproduced +a \| title$")
+        self.assertRegex(lines[1], r"^misso-2023-09 +1 cannot be tested +a \| title$")
+        self.assertIn("misso-2022: 1 figures, 3 claims: 2 reproduced, 1 not reproduced, 0 cannot be tested", lines)
+        self.assertEqual(lines[-1], "all: 2 figures, 4 claims: 2 reproduced, 1 not reproduced, 1 cannot be tested")
+        with self.assertRaisesRegex(FigureError, "misso-2022-04"):
+            verdict_lines(page, [Entry("misso-2022-04", entries[0].figure, lambda run: None, Path("x.py"))])
+
+    def test_the_command_tells_what_the_page_sums_up(self):
+        entries = all_figures()
+        page = (DOCS / "figures.md").read_text()
+        lines = verdict_lines(page, entries)
+        self.assertEqual(len(lines), len(entries) + len(PAPERS) + 1)
+        self.assertIn(lines[-1].removeprefix("all: ") + ".\n", page)
+
     def test_a_large_picture_becomes_small_and_stays_a_picture(self):
         with tempfile.TemporaryDirectory() as folder:
             noise, out = Path(folder) / "noise.png", Path(folder) / "small.png"
@@ -52,3 +72,20 @@ class PageTest(unittest.TestCase):
             self.assertLessEqual(out.stat().st_size, MOST_OF_ONE)
             with Image.open(out) as small:
                 self.assertAlmostEqual(small.width / small.height, 600 / 300, delta=0.05)
+
+    def test_colours_of_thin_lines_stay_apart_beside_a_picture_of_many_shades(self):
+        lines = {20: (31, 119, 180), 40: (90, 90, 90), 60: (44, 160, 44)}
+        shades = np.arange(200)
+        pixels = np.full((300, 600, 3), 255, dtype=np.uint8)
+        pixels[:, :200, 0] = 255 - shades // 4
+        pixels[:, :200, 1] = pixels[:, :200, 2] = shades[::-1]
+        for row, colour in lines.items():
+            pixels[row, 300:500] = colour
+        with tempfile.TemporaryDirectory() as folder:
+            source, out = Path(folder) / "plot.png", Path(folder) / "small.png"
+            Image.fromarray(pixels).save(source)
+            out.write_bytes(shrink(source))
+            with Image.open(out) as small:
+                found = np.asarray(small.convert("RGB"), dtype=int)
+        for row, colour in lines.items():
+            self.assertLess(np.abs(found[row, 300:500] - colour).max(), 20, f"the line of {colour} is drawn as {found[row, 400]}")

@@ -22,6 +22,7 @@ DESCRIPTION = """\
 Makes figures of papers again: data, plots, and a verdict on what the paper claims.
 
   ./figures --list              what there is, and what is not there yet
+  ./figures --verdicts          what came of each, by docs/figures.md: of the last full run that was written there
   ./figures NAME ...            these figures
   ./figures                     all of them, some half an hour; stop it whenever you like, the same command goes on
   ./figures --all --quick       all of them, smaller: some minutes
@@ -36,6 +37,7 @@ def arguments(words: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="figures", description=DESCRIPTION, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="NAME", help="a figure, or the beginning of names: kettunen-2021")
     parser.add_argument("--list", action="store_true", help="names, titles, and the verdicts of the last run")
+    parser.add_argument("--verdicts", action="store_true", help="a line for each figure with its counts of verdicts, from docs/figures.md")
     parser.add_argument("--all", action="store_true", help="every figure: what is done without names, too")
     parser.add_argument("--quick", action="store_true", help="fewer trials, smaller images: a minute each at most")
     parser.add_argument("--docs", action="store_true", help="write docs/figures.md and its pictures")
@@ -148,6 +150,9 @@ def main(words: list[str] | None = None) -> int:
         entries = all_figures()
         if options.list:
             list_figures(entries, out)
+            return 0
+        if options.verdicts:
+            print("\n".join(page.verdict_lines((ROOT / "docs/figures.md").read_text(), entries)))
             return 0
         is_all, code = options.all or not (options.names or options.docs), 0
         if is_all or options.names:

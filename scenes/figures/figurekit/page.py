@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """docs/figures.md: all figures with their pictures and verdicts, and what is not there yet."""
 import json
+import re
 from pathlib import Path
 
-from . import plotting
+from . import plotting, verdicts
 from .catalogue import PAPERS, Entry, paper_of, title_of
 from .not_there import NOT_THERE
 from .programs import FigureError
 
 MOST_BYTES = 2_000_000
+OUTCOMES = (verdicts.REPRODUCED, verdicts.NOT_REPRODUCED, verdicts.UNTESTED)
+ROW = re.compile(r"\| \[`(?P<name>[^`]+)`\]\(#[^)]+\) \| .* \| (?P<counts>[^|]+) \|")
+"""Of the summary."""
 HEAD = """\
 # Figures of papers
 
@@ -34,7 +38,7 @@ def result_of(entry: Entry, out: Path) -> dict:
 
 
 def summary(entries: list[Entry], results: dict[str, dict]) -> list[str]:
-    counts = {"reproduced": 0, "not reproduced": 0, "cannot be tested": 0}
+    counts = dict.fromkeys(OUTCOMES, 0)
     lines = ["| figure | | verdicts |", "| --- | --- | --- |"]
     for entry in entries:
         outcomes = [v["outcome"] for v in results[entry.name]["verdicts"]]
@@ -44,6 +48,27 @@ def summary(entries: list[Entry], results: dict[str, dict]) -> list[str]:
         lines.append(f"| [`{entry.name}`](#{entry.name}) | {entry.figure.title} | {told} |")
     total = ", ".join(f"{n} {o}" for o, n in counts.items())
     return [f"{len(entries)} figures, {sum(counts.values())} claims: {total}.", "", *lines]
+
+
+def verdict_lines(page: str, entries: list[Entry]) -> list[str]:
+    """What the page says came of each figure, a line each, then the sums of each paper and of all. Throws FigureError for a figure that it does not have."""
+    told: dict[str, dict[str, int]] = {}
+    for line in page.splitlines():
+        if row := ROW.fullmatch(line):
+            told[row["name"]] = {outcome: int(count) for count, outcome in (part.split(" ", 1) for part in row["counts"].split(", "))}
+    lines, sums = [], {paper: dict.fromkeys(OUTCOMES, 0) for paper in (*PAPERS, "all")}
+    for entry in entries:
+        if entry.name not in told:
+            raise FigureError(f"docs/figures.md has no {entry.name}: run ./figures {entry.name}, then ./figures --docs")
+        found = told[entry.name]
+        lines.append(f"{entry.name:24} {', '.join(f'{found[o]} {o}' for o in OUTCOMES if o in found):58} {entry.figure.title}")
+        for key in (entry.paper, "all"):
+            for outcome, count in found.items():
+                sums[key][outcome] += count
+    for key, counts in sums.items():
+        of = [e for e in entries if key in (e.paper, "all")]
+        lines.append(f"{key}: {len(of)} figures, {sum(counts.values())} claims: {', '.join(f'{n} {o}' for o, n in counts.items())}")
+    return lines
 
 
 def section(entry: Entry, result: dict) -> list[str]:

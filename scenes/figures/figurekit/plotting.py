@@ -23,6 +23,8 @@ MOST_BYTES = 40_000
 # Pillow before 9.1, which Ubuntu 22.04 has, knows no such classes.
 LANCZOS = getattr(Picture, "Resampling", Picture).LANCZOS
 NO_DITHER = Picture.Dither.NONE if hasattr(Picture, "Dither") else 0
+# Colours far from each other, however few pixels have them, then moved to what they stand for: other ways merge thin lines beside a picture of many shades.
+SPREAD = Picture.Quantize.MAXCOVERAGE if hasattr(Picture, "Quantize") else 1
 
 
 def panels(count: int, columns: int = 2, size: tuple[float, float] = (3.7, 2.7), titles: Sequence[str] = ()) -> tuple[Plot, list[Axes]]:
@@ -107,7 +109,7 @@ def shrink(source: Path, most: int = MOST_BYTES) -> bytes:
     while True:
         for colours in (64, 32, 16):
             out = io.BytesIO()
-            picture.quantize(colours, dither=NO_DITHER).save(out, "PNG", optimize=True)
+            picture.quantize(colours, method=SPREAD, kmeans=1, dither=NO_DITHER).save(out, "PNG", optimize=True)
             if out.tell() <= most:
                 return out.getvalue()
         picture = picture.resize((picture.width * 4 // 5, picture.height * 4 // 5), LANCZOS)
