@@ -10,6 +10,7 @@ CanonicalLine::CanonicalLine(const CanonicalFunction& function, const Setup& set
     : function_(&function),
       setup_(setup),
       toX_(setup.length > 0 ? function.width() / setup.length : 0),
+      length_(std::min(setup.length, setup.end)),
       hasProvenBounds_(setup.control >= 1 && setup.lower <= 1 && setup.blind >= setup.superVoxels &&
                        setup.lowerDensity <= setup.scale * function.range().min) {
   if (!(setup.length > 0)) return;
@@ -34,6 +35,27 @@ CanonicalLine::CanonicalLine(const CanonicalFunction& function, const Setup& set
     const double sEnter = intervals_.empty() ? 0 : intervals_.back().sExit;
     if (sEnter < sExit) intervals_.push_back({sEnter, sExit, bound});
   }
+}
+
+CanonicalLine::CanonicalLine(const CanonicalLine& whole, double length, double begin)
+    : function_(whole.function_),
+      setup_(whole.setup_),
+      toX_(whole.toX_),
+      length_(length),
+      begin_(begin),
+      hasProvenBounds_(whole.hasProvenBounds_),
+      record_(whole.record_),
+      clamps_(whole.clamps_) {}
+
+CanonicalLine CanonicalLine::stretch(double sEnter, double sExit) const {
+  CanonicalLine part(*this, sExit - sEnter, begin_ + sEnter);
+  for (std::size_t i = intervalAt(sEnter); i < intervals_.size() && intervals_[i].sEnter < sExit; ++i) {
+    const Interval& whole = intervals_[i];
+    const double enter = std::max(whole.sEnter - sEnter, 0.0);
+    const double exit = whole.sExit < sExit ? whole.sExit - sEnter : part.length_;
+    if (enter < exit) part.intervals_.push_back({enter, exit, whole.bound});
+  }
+  return part;
 }
 
 void CanonicalLine::setUppers(std::span<const double> uppers, bool clamps) {

@@ -45,15 +45,19 @@ class CanonicalLine {
 
   CanonicalLine(const CanonicalFunction& function, const Setup& setup);
 
-  double length() const { return std::min(setup_.length, setup_.end); }
+  double length() const { return length_; }
+  /// What lies between, restarted at sEnter, with the bounds of the intervals it meets; 0 <= sEnter < sExit
+  /// <= length(). Looks are recorded as places on the whole.
+  CanonicalLine stretch(double sEnter, double sExit) const;
   /// The bounds are known to be true unless the setup spoils them, by a control below 1, a lower bound above
   /// 1 or above the function, or a blind interval; or setUppers does.
   bool hasProvenBounds() const { return hasProvenBounds_; }
   double density(double s) const {
+    const double whole = begin_ + s;
     if (record_ != nullptr) [[unlikely]] {
-      record_->push_back(s);
+      record_->push_back(whole);
     }
-    const double density = setup_.scale * (*function_)(((setup_.offset + s) - setup_.offset) * toX_);
+    const double density = setup_.scale * (*function_)(((setup_.offset + whole) - setup_.offset) * toX_);
     if (clamps_) [[unlikely]] {
       return std::min(density, intervals_[intervalAt(s)].bound.upper);
     }
@@ -71,8 +75,8 @@ class CanonicalLine {
   void walkPieces(Visit&& visit) const {
     const std::span<const double> x = function_->knots();
     for (std::size_t i = 1; i < x.size(); ++i) {
-      const double enter = x[i - 1] / toX_,
-                   exit = i + 1 < x.size() ? std::min(x[i] / toX_, length()) : length();
+      const double enter = std::max(x[i - 1] / toX_ - begin_, 0.0),
+                   exit = i + 1 < x.size() ? std::min(x[i] / toX_ - begin_, length()) : length();
       if (enter < exit && !visit(enter, exit)) return;
     }
   }
@@ -85,8 +89,9 @@ class CanonicalLine {
   double integral() const {
     if (!(setup_.length > 0)) return 0;
     const double width = function_->width();
-    const double of =
-        setup_.end < setup_.length ? function_->integral(0, setup_.end * toX_) : function_->integral();
+    const double of = length_ < setup_.length
+                          ? function_->integral(begin_ * toX_, std::min((begin_ + length_) * toX_, width))
+                          : function_->integral();
     return setup_.scale * of / width * setup_.length;
   }
   /// Integral of the upper bounds over the segment.
@@ -100,9 +105,14 @@ class CanonicalLine {
   std::size_t intervalAt(double s) const;
 
  private:
+  /// Without intervals.
+  CanonicalLine(const CanonicalLine& whole, double length, double begin);
+
   const CanonicalFunction* function_;
   Setup setup_;
-  double toX_;  ///< x = s * toX_
+  double toX_;     ///< x = s * toX_
+  double length_;  ///< from begin_ on
+  double begin_ = 0;
   bool hasProvenBounds_;
   std::vector<Interval> intervals_;
   std::vector<double>* record_ = nullptr;

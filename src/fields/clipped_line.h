@@ -26,6 +26,12 @@ class ClippedLine {
   double tEntry() const { return tEntry_; }
   double length() const { return length_; }
   Vec3d pointAt(double s) const { return line_.o + s * line_.d; }
+  /// What lies between, restarted at sEnter; 0 <= sEnter < sExit <= length().
+  ClippedLine stretch(double sEnter, double sExit) const {
+    ClippedLine part(*cells_, {pointAt(sEnter), line_.d, line_.inverse}, sExit - sEnter, tEntry_ + sEnter);
+    part.refinedColumn_ = refinedColumn_;
+    return part;
+  }
 
   /// Above this integral of a bound over a cell's stretch closer ones are wanted (FieldLine::walk).
   void refineAbove(double column) { refinedColumn_ = column; }

@@ -43,6 +43,11 @@ class FieldLine : public ClippedLine {
   }
 
   bool hasProvenBounds() const { return areProven_; }
+  FieldLine stretch(double sEnter, double sExit) const {
+    FieldLine part = *this;
+    static_cast<ClippedLine&>(part) = ClippedLine::stretch(sEnter, sExit);
+    return part;
+  }
   /// Every loop over a line looks up or draws in vain: here it is left when the run is to stop.
   float density(double s) const {
     leaveIfAbandoned();

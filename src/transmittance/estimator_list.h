@@ -9,6 +9,7 @@
 #include "transmittance/any_estimator.h"
 #include "transmittance/any_exponential_estimator.h"
 #include "transmittance/estimators/gamma.h"
+#include "transmittance/estimators/interval_product.h"
 #include "transmittance/estimators/pink_p_cumulative.h"
 #include "transmittance/estimators/taylor_pink_noise.h"
 
@@ -17,7 +18,8 @@ namespace pbrtmedia {
 /// All transmittance estimators: the list of any_exponential_estimator.h, and here those that are built over
 /// it or serve no exponential law. A new one is its header and one word in one of the two; parser, help text,
 /// contract tests, the lab, docs and benchmarks walk this type. The first is the default.
-using EstimatorVariant = AppendedVariant<AnyExponentialEstimator, TaylorPinkNoise, PinkPCumulative, Gamma>;
+using EstimatorVariant =
+    AppendedVariant<AnyExponentialEstimator, TaylorPinkNoise, PinkPCumulative, Gamma, IntervalProduct>;
 
 struct AnyEstimator::Held {
   EstimatorVariant variant;

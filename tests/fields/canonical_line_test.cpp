@@ -102,6 +102,39 @@ TEST(CanonicalLine, IsCutAtItsEnd) {
   EXPECT_EQ(beyond.integral(), whole.integral());
 }
 
+TEST_P(EveryLine, IsTheSameInStretches) {
+  const CanonicalLine line(f_, {.length = 3, .offset = .5, .scale = .7, .lower = 1, .superVoxels = 7});
+  double integral = 0;
+  for (const double a : {0., .3, 1.1, 2.9}) {
+    const double b = a == 0 ? .3 : a == .3 ? 1.1 : a == 1.1 ? 2.9 : 3;
+    const CanonicalLine part = line.stretch(a, b);
+    EXPECT_EQ(part.length(), b - a);
+    EXPECT_EQ(part.hasProvenBounds(), line.hasProvenBounds());
+    integral += part.integral();
+    double end = 0;
+    part.walk([&](double sEnter, double sExit, const DensityBounds<double>& bound) {
+      EXPECT_EQ(sEnter, end);
+      end = sExit;
+      const double middle = (sEnter + sExit) / 2;
+      EXPECT_EQ(part.density(middle), line.density(a + middle));
+      EXPECT_EQ(bound.upper, line.intervals()[line.intervalAt(a + middle)].bound.upper);
+      return true;
+    });
+    EXPECT_EQ(end, part.length());
+    if (part.isPiecewiseCubic()) {
+      double sum = 0;
+      part.walkPieces([&](double sEnter, double sExit) {
+        sum += (sExit - sEnter) * part.density((sEnter + sExit) / 2);
+        return true;
+      });
+      EXPECT_NEAR(sum, part.integral(), 1e-12 * line.integral());
+    }
+    const CanonicalLine inner = part.stretch((b - a) / 4, b - a);
+    EXPECT_NEAR(inner.density(0), line.density(a + (b - a) / 4), 1e-9);
+  }
+  EXPECT_NEAR(integral / line.integral(), 1, 1e-12);
+}
+
 TEST(CanonicalLine, TakesOtherUpperBoundsAndClampsToThem) {
   const CanonicalFunction f = findCanonicalFunction("step").value();
   CanonicalLine line(f, {.lower = 1, .superVoxels = 2});

@@ -118,6 +118,33 @@ TEST_F(FieldLineWalk, JoinsWithoutGapAlongDiagonalsThroughCellCorners) {
   }
 }
 
+TEST_F(FieldLineWalk, StretchesBetweenBordersAreTheSameDensityUnderTheSameBound) {
+  Rng rng(4);
+  int stretches = 0;
+  for (int n = 0; n < 3000 && !HasFailure(); ++n) {
+    const auto line = clip(randomSegment(rng, 3 * rng.uniform()));
+    if (!line) continue;
+    line->walk([&](double sEnter, double sExit, const SuperVoxel& bound) {
+      const FieldLine<GridField> part = line->stretch(sEnter, sExit);
+      EXPECT_EQ(part.length(), sExit - sEnter);
+      EXPECT_EQ(part.tEntry(), line->tEntry() + sEnter);
+      EXPECT_EQ(part.hasProvenBounds(), line->hasProvenBounds());
+      checkWalk(part);
+      const double middle = part.length() / 2;
+      EXPECT_NEAR(part.density(middle), line->density(sEnter + middle), 1e-5);
+      // Rounding may leave slivers of neighbours at the ends.
+      double own = 0;
+      part.walk([&](double a, double b, const SuperVoxel& here) {
+        if (here == bound) own += b - a;
+        return true;
+      });
+      EXPECT_NEAR(own, part.length(), 1e-12) << stretches;
+      return ++stretches > 0;
+    });
+  }
+  EXPECT_GT(stretches, 9000);
+}
+
 TEST(FieldLine, EntersAndLeavesWhereTheBoxBeginsAndEnds) {
   const ConstantField field({}, Transform());
   const FieldBounds bounds = FieldBounds::proven(field.superVoxels());

@@ -29,9 +29,20 @@ class ContractLine {
 
   /// Ends the line at s < kEnd.
   void cutAt(double s) { end_ = s; }
-  double length() const { return kind_ == Kind::Point ? 0 : end_; }
-  float density(double s) const {
-    ++asked_;
+  double length() const { return kind_ == Kind::Point ? 0 : end_ - begin_; }
+  /// Counted by the whole, which it borrows.
+  ContractLine stretch(double sEnter, double sExit) const {
+    ContractLine part = *this;
+    part.begin_ = begin_ + sEnter;
+    part.end_ = begin_ + sExit;
+    part.whole_ = whole_ != nullptr ? whole_ : this;
+    return part;
+  }
+  /// Out of line: where all of an estimator is inlined around it, GCC 12 warns of members of an empty
+  /// optional.
+  [[gnu::noinline]] float density(double along) const {
+    ++(whole_ != nullptr ? whole_ : this)->asked_;
+    const double s = begin_ + along;
     if (kind_ == Kind::Vacuum) return 0;
     if (s < kEmptyEnd) return 0;
     if (s < kHillEnd) return static_cast<float>(hill(s));
@@ -43,11 +54,11 @@ class ContractLine {
   void walk(Visit&& visit) const {
     if (kind_ == Kind::Point) return;
     if (kind_ == Kind::Vacuum) {
-      visit(0.0, end_, SuperVoxel{0, 0, 0});
+      visit(0.0, length(), SuperVoxel{0, 0, 0});
       return;
     }
     if (oneBound_) {
-      visit(0.0, end_, SuperVoxel{scaled(kMaximum), 0, static_cast<float>(integral() / kEnd)});
+      visit(0.0, length(), SuperVoxel{scaled(kMaximum), 0, static_cast<float>(integral() / kEnd)});
       return;
     }
     const double hillTop = .35 * .35 * kHill;  // above the cubic's maximum
@@ -59,10 +70,12 @@ class ContractLine {
                   {kEnd, kRampBegin, kRampEnd, (kRampBegin + kRampEnd) / 2}};
     double enter = 0;
     for (const auto& p : pieces) {
+      if (p.exit <= begin_) continue;
       const SuperVoxel bound{scaled(p.upper), static_cast<float>(minorantShare_ * p.lower),
                              static_cast<float>(p.mean)};
-      if (!visit(enter, std::min(p.exit, end_), bound) || p.exit >= end_) return;
-      enter = p.exit;
+      const double exit = std::min(p.exit, end_) - begin_;
+      if (!visit(enter, exit, bound) || p.exit >= end_) return;
+      enter = exit;
     }
   }
   template <class Visit>
@@ -70,8 +83,9 @@ class ContractLine {
     if (kind_ != Kind::Full) return;
     double enter = kEmptyEnd;
     for (const double exit : {kHillEnd, kFlatEnd, kEnd}) {
-      if (!visit(enter, std::min(exit, end_)) || exit >= end_) return;
+      const double from = std::max(enter, begin_) - begin_, to = std::min(exit, end_) - begin_;
       enter = exit;
+      if (from < to && !visit(from, to)) return;
     }
   }
 
@@ -104,7 +118,8 @@ class ContractLine {
   float scaled(double upper) const { return static_cast<float>(looseness_ * upper); }
 
   Kind kind_ = Kind::Full;
-  double end_ = kEnd;
+  double begin_ = 0, end_ = kEnd;
+  const ContractLine* whole_ = nullptr;
   double looseness_;
   bool oneBound_;
   double minorantShare_;

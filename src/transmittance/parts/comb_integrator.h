@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "fields/density_line.h"
@@ -57,7 +56,10 @@ class CombIntegrator {
   }
   /// The estimate of the comb with this offset, in [0, 1); unused by combs without one.
   double integralFrom(double offset) {
-    if (matches_ && !ends_) ends_ = lookUpEnds();
+    if (matches_ && !hasEnds_) {
+      ends_ = lookUpEnds();
+      hasEnds_ = true;
+    }
     double sum = 0, sumZ = 0;
     std::array<double, kBatch> z;
     for (std::uint64_t first = 0; first < teeth_; first += kBatch) {
@@ -73,7 +75,7 @@ class CombIntegrator {
     if (matches_) {
       // The mean of z of an equidistant comb: (u + (M - 1) / 2) / M.
       const double beyondMiddle = comb_ == Comb::Equidistant ? (0.5 - offset) / m : 0.5 - sumZ / m;
-      mean += beyondMiddle * (ends_->last - ends_->first);
+      mean += beyondMiddle * (ends_.last - ends_.first);
     }
     return mean;
   }
@@ -205,7 +207,8 @@ class CombIntegrator {
   std::uint64_t teeth_;
   bool matches_, warps_, skipsEmpty_, checks_;
   const BoundPiece* piece_;
-  std::optional<Ends> ends_;
+  Ends ends_{0, 0};
+  bool hasEnds_ = false;
   SampleStream& stream_;
   LookupTally& tally_;
 };
