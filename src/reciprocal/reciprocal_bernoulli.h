@@ -42,6 +42,7 @@ struct ReciprocalBernoulli {
         .control = EstimatorTraits::Control::Bounding,
         .varianceNote = "(1 - F/alpha) / F^2",
         .cost = "alpha / F",
+        .costGrowsWithControl = true,
         .boundedCost = maxLookups > 0};
   }
 

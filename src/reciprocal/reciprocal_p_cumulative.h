@@ -50,7 +50,9 @@ struct ReciprocalPCumulative {
             .control = EstimatorTraits::Control::Any,
             .varianceNote =
                 "(1 - F/alpha) / F^2; under one that is too low, finite where E (1 - F_i/alpha)^2 < 1",
+            .seriesLimit = 1,
             .cost = "n alpha / F under a bounding control",
+            .costGrowsWithControl = true,
             .boundedCost = maxLookups > 0};
   }
 

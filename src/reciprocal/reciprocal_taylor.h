@@ -70,6 +70,7 @@ struct ReciprocalTaylor {
             .control = EstimatorTraits::Control::Any,
             .finiteVariance = false,
             .varianceNote = "finite where E (1 - F_i/alpha)^2 < continuation",
+            .seriesLimit = pivotDepth > 0 ? 0 : continuation,
             .cost = "n (terms - 1 + correctionprobability / (1 - continuation))",
             .boundedCost = maxLookups > 0};
   }

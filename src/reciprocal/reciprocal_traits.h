@@ -20,7 +20,11 @@ struct ReciprocalTraits {
   bool needsPositiveDensity = false;  ///< the domain leaves out densities that touch 0
   bool finiteVariance = true;         ///< in the domain, under a bounding control
   std::string_view varianceNote;      ///< how large, or when finite
+  /// With r = 1 - density / control at points spread by the control: series about the control have a mean
+  /// where E|r| < 1, and a finite variance where E[r^2] is below this, too. 0: no such series.
+  double seriesLimit = 0;
   std::string_view cost;              ///< mean look-ups
+  bool costGrowsWithControl = false;  ///< as alpha / F does
   bool boundedCost = false;           ///< look-ups of one estimate have an upper limit
 };
 

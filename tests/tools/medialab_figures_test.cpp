@@ -70,8 +70,37 @@ TEST(MedialabReciprocals, AreNotMixedWithTransmittance) {
   fails("estimate --estimator ratio,reciprocal-taylor", "estimators of different quantities");
   fails("estimate --quantity reciprocal --estimator ratio", "ratio estimates the transmittance");
   fails("estimate --quantity reciprocal --law pinknoise", "a law turns depth into transmittance");
-  fails("stress --estimator reciprocal-taylor", "reciprocal-taylor estimates the reciprocal");
+  fails("stress --estimator ratio,reciprocal-taylor", "estimators of different quantities");
+  fails("stress --quantity transmittance --estimator reciprocal-taylor",
+        "reciprocal-taylor estimates the reciprocal");
   fails("estimate --estimator reciprocal-tailor", "\"reciprocal-taylor\"");
+}
+
+TEST(MedialabReciprocals, QuickStressHasNoFailure) {
+  std::map<std::string, std::map<std::string, json>> cells;
+  for (const json& row : rowsOf("stress --quantity reciprocal --quick")) {
+    EXPECT_NE(row["verdict"], "fail") << row;
+    EXPECT_FALSE(row["verdict"] == "skipped" && row["reason"].get<std::string>().empty()) << row;
+    cells[row["estimator"]][row["case"]] = row;
+  }
+  ASSERT_EQ(cells.size(), 5u);
+  const auto verdict = [&](const char* estimator, const char* one) {
+    return cells[estimator][one]["verdict"];
+  };
+  for (const auto& [estimator, of] : cells) {
+    EXPECT_GT(of.size(), 15u);
+    EXPECT_EQ(verdict(estimator.c_str(), "depth-1e-100"), "pass") << estimator;
+    EXPECT_EQ(verdict(estimator.c_str(), "depth-1e+100"), "pass") << estimator;
+    EXPECT_EQ(verdict(estimator.c_str(), "depth-0"), "pass") << estimator << " is infinite there";
+    EXPECT_EQ(verdict(estimator.c_str(), "no-density"), "pass") << estimator;
+  }
+  EXPECT_EQ(verdict("reciprocal-bernoulli", "control-0.6"), "expected");
+  EXPECT_EQ(verdict("reciprocal-p-cumulative", "control-0.6"), "pass");
+  EXPECT_EQ(verdict("reciprocal-p-cumulative", "control-0.3"), "expected");
+  EXPECT_EQ(verdict("reciprocal-p-cumulative", "control-1e+09"), "skipped");
+  EXPECT_EQ(verdict("reciprocal-telescoping", "control-1e+09"), "pass");
+  EXPECT_EQ(verdict("reciprocal-telescoping", "touches-0"), "expected");
+  EXPECT_EQ(verdict("reciprocal-bernoulli", "blind-supervoxel"), "expected");
 }
 
 TEST(MedialabReciprocals, MapOverTheAnswerAndTheControl) {

@@ -18,6 +18,7 @@
 #include "tools/medialab/heatmap_picture.h"
 #include "tools/medialab/isolated.h"
 #include "tools/medialab/moments.h"
+#include "tools/medialab/reciprocal_verdict.h"
 #include "tools/medialab/session.h"
 #include "tools/medialab/stress_cases.h"
 #include "tools/medialab/verdict.h"
@@ -251,6 +252,118 @@ TEST(StressCases, HaveNamesOfTheirOwnAndTheDepthTheySay) {
     }
   }
   EXPECT_GT(names.size(), 40u);
+}
+
+TEST(StressCases, OfReciprocalsHaveNamesOfTheirOwnAndTheDepthTheySay) {
+  std::set<std::string> names;
+  for (const StressCase& one : reciprocalStressCases()) {
+    EXPECT_TRUE(names.insert(one.name).second) << one.name;
+    const CanonicalLine line(one.function, one.setup);
+    const double integral = line.integral(),
+                 sigmaT = integral > 0 ? one.depth / integral : one.sigmaOfNothing;
+    const ReciprocalSetting setting = reciprocalSettingOf(line, sigmaT);
+    if (one.depth > 0 && integral > 0) {
+      EXPECT_NEAR(setting.exact * one.depth, 1, 1e-12) << one.name;
+    } else {
+      EXPECT_TRUE(std::isinf(setting.exact)) << one.name;
+    }
+  }
+  EXPECT_GT(names.size(), 30u);
+}
+
+TEST(ReciprocalSetting, HasTheMomentsOfItsRatio) {
+  // A constant under k times itself: r = 1 - 1 / k everywhere.
+  const CanonicalFunction constant = *findCanonicalFunction("constant");
+  for (const double k : {.4, 1., 5.}) {
+    const ReciprocalSetting s = reciprocalSettingOf(CanonicalLine(constant, {.control = k}), 3);
+    EXPECT_NEAR(s.exact, 1. / 3, 1e-15);
+    EXPECT_NEAR(s.controlOverF, k, 1e-12);
+    EXPECT_EQ(s.isBounding, k >= 1);
+    EXPECT_NEAR(s.absolute, std::abs(1 - 1 / k), 1e-12);
+    EXPECT_NEAR(s.square, (1 - 1 / k) * (1 - 1 / k), 1e-12);
+  }
+  // 2x under 2k: r = 1 - x / k with E|r| = 1 - 1/(2k) and E[r^2] = 1 - 1/k + 1/(3k^2) for k >= 1.
+  const CanonicalFunction ramp = *findCanonicalFunction("linear-up");
+  for (const double k : {1., 2.}) {
+    const ReciprocalSetting s = reciprocalSettingOf(CanonicalLine(ramp, {.control = k}), 1);
+    EXPECT_NEAR(s.absolute, 1 - 1 / (2 * k), 1e-6);
+    EXPECT_NEAR(s.square, 1 - 1 / k + 1 / (3 * k * k), 1e-5);
+    EXPECT_FALSE(s.isPositive);
+  }
+  // A step at the border of the second of four super-voxels, whose bound is that of both sides: alpha = (1 +
+  // 3 + 3 + 3) / 4, and r = 2 / 3 in the second.
+  const CanonicalFunction halves{{"halves", "", ""}, {{.end = .5, .constant = 1}, {.end = 1, .constant = 3}}};
+  const ReciprocalSetting s = reciprocalSettingOf(CanonicalLine(halves, {.superVoxels = 4}), 1);
+  EXPECT_NEAR(s.controlOverF, 1.25, 1e-9);
+  EXPECT_NEAR(s.absolute, .2, 1e-9);
+  EXPECT_NEAR(s.square, .3 * 4 / 9, 1e-9);
+  EXPECT_TRUE(s.isPositive);
+}
+
+TEST(ReciprocalVerdict, FollowsWhatTheTraitsPromise) {
+  using Kind = StressVerdict::Kind;
+  ReciprocalTraits t;
+  t.seriesLimit = 1;
+  const ReciprocalSetting setting{.exact = 2, .controlOverF = 3, .absolute = .5, .square = .3};
+  std::vector<double> fair, biased;
+  for (int i = 0; i < 1000; ++i) {
+    fair.push_back(i % 2 == 0 ? 1 : 3);
+    biased.push_back(i % 2 == 0 ? 1 : 2);
+  }
+  EXPECT_EQ(judgeReciprocal(t, setting, resultOf(fair, 2)).kind, Kind::Pass);
+  EXPECT_EQ(judgeReciprocal(t, setting, resultOf(biased, 2)).kind, Kind::Fail);
+  // One trial that makes the variance says nothing.
+  std::vector<double> heavy(1000, 1.0);
+  heavy[0] = 5;
+  EXPECT_EQ(judgeReciprocal(t, setting, resultOf(heavy, 2)).kind, Kind::Undecided);
+  // An event of probability 1e-6 that did not come, and one of 0.1 that should have.
+  ReciprocalSetting rare = setting;
+  rare.exact = 1 + 1e-6;
+  EXPECT_EQ(judgeReciprocal(t, rare, resultOf(std::vector<double>(1000, 1.0), 1)).kind, Kind::Undecided);
+  rare.exact = 1.1;
+  EXPECT_EQ(judgeReciprocal(t, rare, resultOf(std::vector<double>(1000, 1.0), 1)).kind, Kind::Fail);
+  // Under a control that is too low the series decides, or the traits say that it must bound.
+  ReciprocalSetting low = setting;
+  low.isBounding = false;
+  EXPECT_EQ(judgeReciprocal(t, low, resultOf(biased, 2)).kind, Kind::Fail);
+  low.square = 1.5;
+  EXPECT_NE(judgeReciprocal(t, low, resultOf(biased, 2)).reason.find("variance"), std::string::npos);
+  low.absolute = 1;
+  EXPECT_NE(judgeReciprocal(t, low, resultOf(biased, 2)).reason.find("out of its domain"), std::string::npos);
+  ReciprocalTraits bounding = t;
+  bounding.control = EstimatorTraits::Control::Bounding;
+  EXPECT_EQ(judgeReciprocal(bounding, low, resultOf(fair, 2)).reason, "needs a bounding control");
+  // Densities that are 0 somewhere.
+  ReciprocalTraits march = t;
+  march.control = EstimatorTraits::Control::Unused;
+  march.needsPositiveDensity = true;
+  IsolatedResult broken = resultOf(fair, 2);
+  broken.stats.nonFinite = 1;
+  EXPECT_EQ(judgeReciprocal(march, setting, broken).kind, Kind::Fail);
+  ReciprocalSetting zero = setting;
+  zero.isPositive = false;
+  EXPECT_EQ(judgeReciprocal(march, zero, broken).kind, Kind::Expected);
+  // F = 0.
+  ReciprocalSetting nothing = setting;
+  nothing.exact = std::numeric_limits<double>::infinity();
+  IsolatedResult infinite = resultOf({}, 0);
+  infinite.stats.nonFinite = 100;
+  EXPECT_EQ(judgeReciprocal(t, nothing, infinite).kind, Kind::Pass);
+  EXPECT_EQ(judgeReciprocal(t, nothing, resultOf(fair, 2)).kind, Kind::Fail);
+  nothing.isEmptyUnderControl = true;
+  EXPECT_EQ(judgeReciprocal(t, nothing, resultOf(fair, 2)).kind, Kind::Expected);
+  // A control of 0 over density has to be noticed.
+  ReciprocalSetting blind = setting;
+  blind.isBlind = true;
+  EXPECT_EQ(judgeReciprocal(t, blind, resultOf(fair, 2)).kind, Kind::Fail);
+  IsolatedResult noticed = resultOf(biased, 2);
+  noticed.stats.violations = 7;
+  EXPECT_EQ(judgeReciprocal(t, blind, noticed).kind, Kind::Expected);
+  // What is consistent only is told how far off it is.
+  ReciprocalTraits consistent = t;
+  consistent.bias = EstimatorTraits::Bias::Consistent;
+  EXPECT_EQ(judgeReciprocal(consistent, setting, resultOf(biased, 2)).reason,
+            "consistent: relative error -0.25");
 }
 
 TEST(Heatmap, TheBestIsTheLeastAndRoundingCountsAsNothing) {

@@ -39,6 +39,8 @@ class LabEstimator {
 
   /// Of one of transmittance only: std::bad_variant_access for others.
   EstimatorTraits traits() const { return traitsOf(std::get<AnyEstimator>(held_)); }
+  /// Of one of reciprocals only, likewise.
+  ReciprocalTraits reciprocalTraits() const { return traitsOf(std::get<AnyReciprocal>(held_)); }
   AnyLaw law() const { return lawOf(std::get<AnyEstimator>(held_)); }
   /// False, changing nothing, when it cannot serve the law; so always for a reciprocal.
   bool setLaw(const AnyLaw& law);

@@ -167,6 +167,7 @@ void addStress(CLI::App& app, StressOptions& o, const Words& words, Run& run) {
   addLabOptions(c, o.lab, words);
   addTableOptions(c, o.lab);
   addSelection(c, o.selection);
+  addQuantity(c, o.selection);
   c->add_option("--case", o.cases, "names of cases, or beginnings of names (all)")
       ->delimiter(',')
       ->take_all();

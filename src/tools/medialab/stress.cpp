@@ -6,10 +6,12 @@
 #include <iostream>
 #include <map>
 #include <stdexcept>
+#include <variant>
 
 #include "base/diagnostics.h"
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "tools/medialab/reciprocal_verdict.h"
 #include "tools/medialab/stress_cases.h"
 #include "tools/medialab/verdict.h"
 
@@ -29,12 +31,14 @@ struct Cell {
   const LabEstimator* estimator;
   const StressCase* one;
   LabProblem problem;
-  StressSetting setting;
+  /// What is known of the line, for either quantity.
+  std::variant<StressSetting, ReciprocalSetting> setting;
   std::string whySkipped;
 };
 
-std::vector<StressCase> selectCases(const StressOptions& o) {
-  std::vector<StressCase> all = stressCases(), chosen;
+std::vector<StressCase> selectCases(const StressOptions& o, Quantity quantity) {
+  std::vector<StressCase> all = quantity == Quantity::Reciprocal ? reciprocalStressCases() : stressCases();
+  std::vector<StressCase> chosen;
   for (const std::string& word : o.cases) {
     const bool isKnown = std::any_of(all.begin(), all.end(), [&](const StressCase& c) {
       return std::string_view(c.name).substr(0, word.size()) == word;
@@ -53,15 +57,25 @@ std::vector<StressCase> selectCases(const StressOptions& o) {
   return chosen;
 }
 
+/// Look-ups of one estimate, where they grow with the control and are known before. Walks make as many as
+/// the control is deep, and combs that it sizes have teeth in proportion.
+double predictedCost(const Cell& cell) {
+  if (const auto* reciprocal = std::get_if<ReciprocalSetting>(&cell.setting)) {
+    return cell.estimator->reciprocalTraits().costGrowsWithControl ? reciprocal->controlOverF : 0;
+  }
+  const bool costGrows = cell.estimator->traits().control != EstimatorTraits::Control::Unused;
+  return costGrows ? cell.problem.controlDepth() : 0;
+}
+
 /// Why a cell is not even tried; empty if it is.
-std::string whySkipped(const EstimatorTraits& traits, const Cell& cell, const Budget& budget) {
+std::string whySkipped(const Cell& cell, const Budget& budget) {
   std::string why = whyNotApplicable(*cell.estimator, cell.problem.line);
-  if (!why.empty()) return why;
-  // Walks make as many look-ups as the control is deep, and combs that it sizes have teeth in proportion.
-  const bool costGrows = traits.control != EstimatorTraits::Control::Unused;
-  if (costGrows && cell.setting.controlDepth > budget.predictedCost) {
-    why = "cost ~ optical depth of the control: " + formatNumber(std::round(cell.setting.controlDepth)) +
-          " look-ups predicted";
+  // Where there is no control, there is no cost.
+  if (!why.empty() || !(cell.problem.line.upperIntegral() > 0)) return why;
+  if (const double cost = predictedCost(cell); cost > budget.predictedCost) {
+    why = std::holds_alternative<ReciprocalSetting>(cell.setting) ? "cost ~ alpha / F: "
+                                                                  : "cost ~ optical depth of the control: ";
+    why += formatNumber(std::round(cost)) + " look-ups predicted";
   }
   return why;
 }
@@ -71,14 +85,27 @@ Cell cellOf(const LabEstimator& estimator, const StressCase& one, const Budget& 
   const double integral = line.integral();
   const double sigmaT = integral > 0 ? one.depth / integral : one.sigmaOfNothing;
   Cell cell{&estimator, &one, {line, sigmaT}, {}, ""};
-  cell.setting = {.exact = cell.problem.exact(estimator),
-                  .depth = cell.problem.depth(),
-                  .controlDepth = cell.problem.controlDepth(),
-                  .control = one.setup.control,
-                  .isBounding = one.setup.control >= 1,
-                  .isBlind = one.isBlind};
-  cell.whySkipped = whySkipped(estimator.traits(), cell, budget);
+  if (estimator.quantity() == Quantity::Reciprocal) {
+    ReciprocalSetting setting = reciprocalSettingOf(line, sigmaT);
+    setting.isBlind = one.isBlind;
+    cell.setting = setting;
+  } else {
+    cell.setting = StressSetting{.exact = cell.problem.exact(estimator),
+                                 .depth = cell.problem.depth(),
+                                 .controlDepth = cell.problem.controlDepth(),
+                                 .control = one.setup.control,
+                                 .isBounding = one.setup.control >= 1,
+                                 .isBlind = one.isBlind};
+  }
+  cell.whySkipped = whySkipped(cell, budget);
   return cell;
+}
+
+StressVerdict verdictOn(const Cell& cell, const IsolatedResult& result) {
+  if (const auto* reciprocal = std::get_if<ReciprocalSetting>(&cell.setting)) {
+    return judgeReciprocal(cell.estimator->reciprocalTraits(), *reciprocal, result);
+  }
+  return judge(cell.estimator->traits(), std::get<StressSetting>(cell.setting), result);
 }
 
 /// The verdict's reason, and whether look-ups were too dear for all trials.
@@ -96,13 +123,13 @@ std::vector<LabTable::Cell> rowOf(const StressOptions& o, const Budget& budget, 
   const double none = std::nan("");
   std::vector<LabTable::Cell> row{cell.estimator->label(),
                                   cell.one->name,
-                                  cell.setting.depth,
-                                  cell.setting.controlDepth,
+                                  cell.problem.depth(),
+                                  cell.problem.controlDepth(),
                                   s.trials(),
                                   verdict.finite,
                                   verdict.inRange,
                                   hasTrials ? s.value.mean() : none,
-                                  cell.setting.exact,
+                                  cell.problem.exact(*cell.estimator),
                                   verdict.z,
                                   verdict.unbiased,
                                   hasTrials ? s.lookupsPerTrial() : none,
@@ -159,11 +186,10 @@ StressVerdict skippedVerdict(const std::string& reason) {
 LabTable stressTable(const StressOptions& o, const StopSignal& stop) {
   LabTable table = emptyTable(o);
   std::vector<LabTable::Skipped> skipped;
-  EstimatorSelection selection = o.selection;
-  selection.quantity = Quantity::Transmittance;  // whose stiff lines these are
-  const std::vector<LabEstimator> estimators = selection.select(skipped);
+  const std::vector<LabEstimator> estimators = o.selection.select(skipped);
   for (const auto& s : skipped) table.skip(s.what, s.reason);
-  const std::vector<StressCase> cases = selectCases(o);
+  noteQuantity(table, estimators);
+  const std::vector<StressCase> cases = selectCases(o, estimators.front().quantity());
   const Budget& budget = o.isQuick ? kQuick : kFull;
   std::vector<Cell> cells;
   for (const LabEstimator& estimator : estimators) {
@@ -176,8 +202,7 @@ LabTable stressTable(const StressOptions& o, const StopSignal& stop) {
     const bool isSkipped = !cell.whySkipped.empty();
     const IsolatedResult result = isSkipped ? IsolatedResult{} : results[job++];
     if (!isSkipped && result.end == IsolatedResult::End::NotRun) continue;
-    const StressVerdict verdict =
-        isSkipped ? skippedVerdict(cell.whySkipped) : judge(cell.estimator->traits(), cell.setting, result);
+    const StressVerdict verdict = isSkipped ? skippedVerdict(cell.whySkipped) : verdictOn(cell, result);
     ++counts[nameOf(verdict.kind)];
     table.add(rowOf(o, budget, cell, result, verdict));
   }

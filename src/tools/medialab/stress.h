@@ -16,7 +16,8 @@ struct StressOptions {
   bool isQuick = false;
 };
 
-/// Every estimator on every case of stressCases(), each cell in a process of its own, with a verdict.
+/// Every estimator on every case of its quantity (stress_cases.h), each cell in a process of its own, with a
+/// verdict.
 LabTable stressTable(const StressOptions& options, const StopSignal& stop);
 
 /// `medialab stress`. 1 when any verdict is "fail", or missing because the run was stopped.

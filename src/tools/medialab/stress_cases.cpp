@@ -27,6 +27,10 @@ CanonicalFunction holeOf(const char* name, double width) {
   return made(name, {{.end = 0.4, .constant = 1}, {.end = 0.4 + width}, {.end = 1, .constant = 1}});
 }
 
+CanonicalFunction contrastOf(double least) {
+  return made("contrast", {{.end = 0.5, .constant = least}, {.end = 1, .constant = 1}});
+}
+
 class Cases {
  public:
   void add(std::string name, CanonicalFunction function, double depth, const CanonicalLine::Setup& setup,
@@ -58,10 +62,8 @@ void addControls(Cases& all) {
 }
 
 void addShapes(Cases& all) {
-  const CanonicalFunction contrast =
-      made("contrast", {{.end = 0.5, .constant = 1e-12}, {.end = 1, .constant = 1}});
-  all.add("contrast-1e12", contrast, 1, {});
-  all.add("contrast-1e12-supervoxels", contrast, 1, {.lower = 1, .superVoxels = 4}, false);
+  all.add("contrast-1e12", contrastOf(1e-12), 1, {});
+  all.add("contrast-1e12-supervoxels", contrastOf(1e-12), 1, {.lower = 1, .superVoxels = 4}, false);
   all.add("jump", named("step"), 2, {});
   all.add("jumps", named("piecewise-random"), 2, {}, false);
   all.add("jumps-supervoxels", named("piecewise-random"), 2, {.lower = 1, .superVoxels = 32});
@@ -75,15 +77,15 @@ void addShapes(Cases& all) {
   all.add("many-supervoxels", named("cosine"), 2, {.superVoxels = 1000}, false);
 }
 
-void addUnits(Cases& all) {
+void addUnits(Cases& all, std::string_view smooth) {
   all.add("tiny-density", named("constant"), 1, {.scale = 0x1p-140});
   all.add("tiny-density-step", made("powers", {{.end = 0.5, .constant = 0.5}, {.end = 1, .constant = 2}}), 1,
           {.scale = 0x1p-140}, false);
-  all.add("huge-density", named("cosine"), 1, {.scale = 1e37}, false);
-  all.add("length-1e-30", named("cosine"), 1, {.length = 1e-30});
-  all.add("length-1e30", named("cosine"), 1, {.length = 1e30});
-  all.add("offset-1e6", named("cosine"), 1, {.offset = 1e6});
-  all.add("offset-1e6-supervoxels", named("cosine"), 1, {.offset = 1e6, .superVoxels = 64}, false);
+  all.add("huge-density", named(smooth), 1, {.scale = 1e37}, false);
+  all.add("length-1e-30", named(smooth), 1, {.length = 1e-30});
+  all.add("length-1e30", named(smooth), 1, {.length = 1e30});
+  all.add("offset-1e6", named(smooth), 1, {.offset = 1e6});
+  all.add("offset-1e6-supervoxels", named(smooth), 1, {.offset = 1e6, .superVoxels = 64}, false);
 }
 
 void addNothing(Cases& all) {
@@ -101,6 +103,29 @@ void addNothing(Cases& all) {
   all.cases.back().isBlind = true;
 }
 
+void addReciprocals(Cases& all) {
+  const std::array quick{1e-100, 0.999999, 1e100};
+  for (const double depth : {1e-100, 1e-8, 0.999999, 1.0, 1e8, 1e100}) {
+    const bool isQuick = std::find(quick.begin(), quick.end(), depth) != quick.end();
+    all.add("depth-" + formatNumber(depth), named("composite-sine"), depth, {}, isQuick);
+  }
+  all.add("control-is-F", named("constant"), 1, {});
+  all.add("control-near-F", named("constant"), 1, {.control = 1 + 1e-9}, false);
+  for (const double control : {1e-3, 0.3, 0.4, 0.6, 0.9, 2.0, 10.0, 1e3, 1e9}) {
+    const bool isQuick = control == 0.3 || control == 0.6 || control == 1e9;
+    all.add("control-" + formatNumber(control), named("composite-sine"), 1, {.control = control}, isQuick);
+  }
+  all.add("touches-0", named("cosine"), 1, {});
+  all.add("hole-1e-3", holeOf("hole-1e-3", 1e-3), 2, {}, false);
+  all.add("contrast-1e12", contrastOf(1e-12), 1, {});
+  all.add("contrast-1e12-supervoxels", contrastOf(1e-12), 1, {.superVoxels = 4}, false);
+  all.add("jump", named("step"), 2, {});
+  all.add("spike-1e-3", spikeOf("spike-1e-3", 1e-3), 2, {});
+  all.add("spike-1e-6-supervoxels", spikeOf("spike-1e-6", 1e-6), 2, {.superVoxels = 8}, false);
+  all.add("fractal", named("fractal-a"), 2, {}, false);
+  all.add("many-supervoxels", named("composite-sine"), 2, {.superVoxels = 1000}, false);
+}
+
 }  // namespace
 
 std::vector<StressCase> stressCases() {
@@ -108,7 +133,15 @@ std::vector<StressCase> stressCases() {
   addDepths(all);
   addControls(all);
   addShapes(all);
-  addUnits(all);
+  addUnits(all, "cosine");
+  addNothing(all);
+  return std::move(all.cases);
+}
+
+std::vector<StressCase> reciprocalStressCases() {
+  Cases all;
+  addReciprocals(all);
+  addUnits(all, "composite-sine");
   addNothing(all);
   return std::move(all.cases);
 }

@@ -23,5 +23,8 @@ struct StressCase {
 /// All cases: depths, controls, contrasts, jumps, spikes, holes, fractals, denormal densities, lengths,
 /// offsets, nothing at all, and bounds of 0 over density.
 std::vector<StressCase> stressCases();
+/// Those of estimators of 1/F: F from 1e-100 to 1e100, near 1 and near the control's integral, controls that
+/// are loose, too low or 0, densities that are 0 somewhere or all but 0, units, and nothing at all.
+std::vector<StressCase> reciprocalStressCases();
 
 }  // namespace pbrtmedia

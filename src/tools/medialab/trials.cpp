@@ -2,7 +2,6 @@
 #include "tools/medialab/trials.h"
 
 #include <ctime>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,21 +16,6 @@
 
 namespace pbrtmedia {
 namespace {
-
-/// A line that cannot be cut into pieces; stands for any such in the question below.
-struct PlainLine {
-  static constexpr bool hasProvenBounds() { return false; }
-  double length() const { return 0; }
-  double density(double) const { return 0; }
-  void densities(std::span<const double>, std::span<double>) const {}
-  template <class Visit>
-  void walk(Visit&&) const {}
-};
-static_assert(DensityLine<PlainLine> && !PiecewiseCubicLine<PlainLine>);
-
-template <class Estimator>
-constexpr bool kNeedsPieces =
-    !std::is_invocable_v<const Estimator&, const PlainLine&, const Channels<1>&, SampleStream&>;
 
 /// Calls `f` with the concrete estimator, of either quantity.
 template <class F>
@@ -129,7 +113,7 @@ void TrialStats::add(const TrialStats& o) {
 }
 
 std::string whyNotApplicable(const LabEstimator& estimator, const CanonicalLine& line) {
-  const bool needsPieces = visitHeld([]<class E>(const E&) { return kNeedsPieces<E>; }, estimator);
+  const bool needsPieces = estimator.quantity() == Quantity::Transmittance && estimator.traits().needsPieces;
   if (needsPieces && !line.isPiecewiseCubic()) {
     return "needs a density that is a cubic between known points, which " + line.function().about().name +
            " is not";

@@ -38,16 +38,10 @@ bool isUnbiasedHere(const EstimatorTraits& t, const StressSetting& s) {
   return !s.isBlind && (s.isBounding || t.control == Control::Any);
 }
 
-struct Judgement {
-  Kind kind;
-  std::string reason;
-};
-
-Judgement judgeMean(const EstimatorTraits& t, const StressSetting& s, const TrialStats& stats, double z) {
+Judgement judgeMeanOf(const EstimatorTraits& t, const StressSetting& s, const TrialStats& stats, double z) {
   const Moments& v = stats.value;
   const double n = static_cast<double>(v.count());
-  if (n < kFewTrials) return {Kind::Undecided, "too few trials within the budget"};
-  if (std::abs(z) <= kMostAbsZ) return {Kind::Pass, ""};
+  if (n < kFewTrials || std::abs(z) <= kMostAbsZ) return judgeMean(stats, z);
   const bool staysInRange = !t.mayLeaveUnitInterval && holdsHere(t, s);
   if (staysInRange && logChernoffBound(v.mean(), s.exact, n) > kLogRare) {
     return {Kind::Undecided, "values in [0, 1]: events too rare for these trials"};
@@ -56,17 +50,13 @@ Judgement judgeMean(const EstimatorTraits& t, const StressSetting& s, const Tria
   if (s.depth / (looksAtControl ? std::min(s.control, 1.0) : 1.0) > std::log(n)) {
     return {Kind::Undecided, "weights spread too far for these trials"};
   }
-  if (std::isnan(z)) return {Kind::Undecided, "the variance overflows"};
-  if (v.variance() == 0) {
+  if (v.variance() == 0 && !std::isnan(z)) {
     // An event of probability p is missed by n trials with probability exp(-n p).
     const bool isRare = std::abs(v.mean() - s.exact) * n < -kLogRare;
     return isRare ? Judgement{Kind::Undecided, "events too rare for these trials"}
                   : Judgement{Kind::Fail, "biased: all values are equal and wrong"};
   }
-  const double total = v.variance() * (n - 1);
-  const double share = stats.largestDeviation * stats.largestDeviation / std::max(total, 1e-300);
-  if (share > kDominated) return {Kind::Undecided, "one trial makes most of the variance"};
-  return {Kind::Fail, "biased"};
+  return judgeMean(stats, z);
 }
 
 }  // namespace
@@ -76,17 +66,18 @@ std::string_view nameOf(Kind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-double logChernoffBound(double mean, double expected, double n) {
-  const auto part = [](double a, double b) { return a > 0 ? a * std::log(a / b) : 0; };
-  mean = std::clamp(mean, 0.0, 1.0);
-  return std::log(2.0) - n * std::max(0.0, part(mean, expected) + part(1 - mean, 1 - expected));
+Judgement judgeMean(const TrialStats& stats, double z) {
+  const double n = static_cast<double>(stats.value.count());
+  if (n < kFewTrials) return {Kind::Undecided, "too few trials within the budget"};
+  if (std::abs(z) <= kMostAbsZ) return {Kind::Pass, ""};
+  if (std::isnan(z)) return {Kind::Undecided, "the variance overflows"};
+  const double total = stats.value.variance() * (n - 1);
+  const double share = stats.largestDeviation * stats.largestDeviation / std::max(total, 1e-300);
+  if (total > 0 && share > kDominated) return {Kind::Undecided, "one trial makes most of the variance"};
+  return {Kind::Fail, "biased"};
 }
 
-namespace {
-
-/// What is wrong with how the trials ended, if anything is.
-std::optional<Judgement> judgeEnd(const EstimatorTraits& t, const StressSetting& s,
-                                  const IsolatedResult& result) {
+std::optional<Judgement> judgeEnd(const IsolatedResult& result, bool mayTakeLong, double controlDepth) {
   switch (result.end) {
     case End::NotRun:
       return Judgement{Kind::Skipped, "stopped before"};
@@ -94,8 +85,8 @@ std::optional<Judgement> judgeEnd(const EstimatorTraits& t, const StressSetting&
     case End::Threw:
       return Judgement{Kind::Fail, result.message};
     case End::OutOfTime:
-      if (t.control != Control::Unused && s.controlDepth > kCostlyControl) {
-        return Judgement{Kind::Expected, "out of time at a control of depth " + formatNumber(s.controlDepth)};
+      if (mayTakeLong) {
+        return Judgement{Kind::Expected, "out of time at a control of depth " + formatNumber(controlDepth)};
       }
       return Judgement{Kind::Fail, "hangs: out of processor time"};
     case End::Done:
@@ -103,6 +94,14 @@ std::optional<Judgement> judgeEnd(const EstimatorTraits& t, const StressSetting&
   }
   return std::nullopt;
 }
+
+double logChernoffBound(double mean, double expected, double n) {
+  const auto part = [](double a, double b) { return a > 0 ? a * std::log(a / b) : 0; };
+  mean = std::clamp(mean, 0.0, 1.0);
+  return std::log(2.0) - n * std::max(0.0, part(mean, expected) + part(1 - mean, 1 - expected));
+}
+
+namespace {
 
 /// What is wrong with single values, if anything is.
 std::optional<Judgement> judgeValues(const EstimatorTraits& t, const StressSetting& s,
@@ -133,7 +132,8 @@ StressVerdict judge(const EstimatorTraits& t, const StressSetting& s, const Isol
     verdict.reason = std::move(reason);
     return verdict;
   };
-  if (const auto end = judgeEnd(t, s, result)) return conclude(end->kind, end->reason);
+  const bool mayTakeLong = t.control != Control::Unused && s.controlDepth > kCostlyControl;
+  if (const auto end = judgeEnd(result, mayTakeLong, s.controlDepth)) return conclude(end->kind, end->reason);
   const TrialStats& stats = result.stats;
   const Moments& v = stats.value;
   const bool finiteVariance = holdsHere(t, s) ? t.finiteVariance : t.finiteVarianceUnbounded;
@@ -168,7 +168,7 @@ StressVerdict judge(const EstimatorTraits& t, const StressSetting& s, const Isol
                                         ? "infinite variance under this control: the mean cannot be judged"
                                         : "the variance may be infinite: the mean cannot be judged");
   }
-  const Judgement mean = judgeMean(t, s, stats, verdict.z);
+  const Judgement mean = judgeMeanOf(t, s, stats, verdict.z);
   verdict.unbiased = mean.kind == Kind::Pass ? "yes" : mean.kind == Kind::Fail ? "no" : "undecided";
   return conclude(mean.kind, mean.reason);
 }

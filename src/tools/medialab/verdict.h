@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "tools/medialab/isolated.h"
@@ -41,6 +42,18 @@ struct StressSetting {
 /// exp(integral of mu^2 / control), at most exp(depth / control).
 StressVerdict judge(const EstimatorTraits& traits, const StressSetting& setting,
                     const IsolatedResult& result);
+
+/// Whether a mean `z` standard errors off is refuted when nothing is known of its values: not by few trials,
+/// nor while one of them makes most of the variance.
+struct Judgement {
+  StressVerdict::Kind kind;
+  std::string reason;
+};
+Judgement judgeMean(const TrialStats& stats, double z);
+
+/// What is wrong with how the trials ended, if anything is. `mayTakeLong`: the control is so deep that a
+/// single estimate may take seconds, which the traits tell.
+std::optional<Judgement> judgeEnd(const IsolatedResult& result, bool mayTakeLong, double controlDepth);
 
 /// log of the bound 2 exp(-n KL(mean || expected)) on the probability that the mean of n independent values
 /// in [0, 1] lies as far from its expectation as `mean` does. Hoeffding 1963,
