@@ -30,6 +30,26 @@ def tracking_variance(extinction: Callable[[np.ndarray], np.ndarray], length: fl
     return math.exp(second) - math.exp(-2 * depth)
 
 
+def cmf_moments(control: float, mean: float, square: float) -> tuple[float, float]:
+    """Second moment and mean look-ups of p-series CMF under a control of this optical depth, `mean` and `square` being those of 1 - extinction / control at points spread by
+    it; Georgiev et al. 2019 (31), with one more certain level than printed, as published code has."""
+    weights, certain, below = poisson(control, TERMS), 1, 0.0
+    while below + weights[certain - 1] < 0.99:
+        below += weights[certain - 1]
+        certain += 1
+    reach = np.ones(TERMS + 1)
+    for k in range(certain + 1, TERMS + 1):
+        reach[k] = reach[k - 1] * min(1.0, control / k)
+    second = before = 0.0
+    power = 1.0
+    for k in range(TERMS + 1):
+        a = weights[k] / reach[k] if reach[k] > 1e-290 else 0.0
+        second += reach[k] * a * (a * power + 2 * before)
+        before = mean * (before + a * power)
+        power *= square
+    return second, float(reach[1:].sum())
+
+
 class Roulette:
     """How many terms a series of Bhanot and Kennedy has: the first floor(c) are certain, or of probability 1 - `zero` where that is given; from
     order k - 1 to k it goes on with c / k."""
