@@ -54,7 +54,7 @@ PathParams readPathParams(ParamReader& in) {
   PathParams p;
   p.maxDepth = findIntWithin(in, "maxdepth", p.maxDepth, Range::closed(0, kMaxDepth));
   p.rrThreshold = findFloatWithin(in, "rrthreshold", p.rrThreshold, Range::nonNegative());
-  p.lightSampleStrategy = readLightSampleStrategy(in, kLightStrategies, 2);
+  p.lightSampleStrategy = readLightSampleStrategy(in, kLightStrategies, 3);
   return p;
 }
 
@@ -219,7 +219,7 @@ IntegratorPlan readSppm(ParamReader& in, const ConstructOptions& options) {
     checkMediaForPhotons(scene, cameraMedium, at, *diagnostics);
     std::unique_ptr<const LightSelector> selector, photonSelector;
     if (!scene.illuminants().empty()) {
-      selector = makeLightSelector(LightStrategy::Spatial, scene.illuminants(), scene.bounds());
+      selector = makeLightSelector(LightStrategy::Tree, scene.illuminants(), scene.bounds());
       photonSelector = makeLightSelector(LightStrategy::Power, scene.illuminants(), scene.bounds());
     }
     return std::make_unique<SppmIntegrator>(scene, p, std::move(selector), std::move(photonSelector),

@@ -24,8 +24,8 @@ class LightSelector {
   virtual Choice choose(const LightReceiver& at, float u) const = 0;
   /// Probability that `choose(at, .)` picks the light.
   virtual float probability(const LightReceiver& at, std::size_t light) const = 0;
-  /// Whether uniform infinite lights are left to the directions that paths scatter into also in media, where
-  /// a light sample of them would be a second look at what dims them (LightReceiver::findsUniformLights).
+  /// Whether uniform infinite lights are left to the directions that paths scatter into also in media that
+  /// absorb little, as a light sample would look twice at what dims them (LightReceiver::findsUniformLights).
   virtual bool leavesOutUniformLights() const { return false; }
 
   /// Whether light samples of exploratory paths would teach it something.

@@ -32,7 +32,7 @@ TEST(ConstructIntegrator, EveryParameterHasItsEffect) {
     effects.push_back({deep, deep + " \"float rrthreshold\" 0"});
     effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"uniform\""});
     effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"power\""});
-    effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"tree\""});
+    effects.push_back({deep, deep + " \"string lightsamplestrategy\" \"spatial\""});
   }
   for (const char* strategy : {"uniform", "spatial", "tree"}) {
     effects.push_back(
@@ -42,7 +42,7 @@ TEST(ConstructIntegrator, EveryParameterHasItsEffect) {
   expectEffects(effects, with, rendered);
   expectSame({{"",
                "Integrator \"path\" \"integer maxdepth\" 5 \"float rrthreshold\" 1 "
-               "\"string lightsamplestrategy\" \"spatial\""},
+               "\"string lightsamplestrategy\" \"tree\""},
               {"Integrator \"directlighting\"",
                "Integrator \"directlighting\" \"string strategy\" \"all\" \"integer maxdepth\" 5"}},
              with, rendered);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <vector>
 
 #include "filters/box.h"
 #include "render/render_state.h"
@@ -77,6 +78,47 @@ TEST(LightChoice, ChangesNoImage) {
     // The test sees lamps that are a fifth too bright.
     EXPECT_GT(zOf(meansOf(lamps(integrator, "learned", 32, 2, 1.2)), learned), kMaxAbsZ) << integrator;
   }
+}
+
+/// A ball of gas of that albedo under a sky of the same radiance everywhere.
+std::string ballUnderSky(const std::string& strategy, double albedo) {
+  std::ostringstream os;
+  os << "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\nPixelFilter \"box\"\n"
+     << "Sampler \"random\" \"integer pixelsamples\" 8\n"
+     << "Integrator \"volpath\" \"integer maxdepth\" 50 \"string lightsamplestrategy\" \"" << strategy
+     << "\"\nLookAt 0 0 -5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 20\nWorldBegin\n"
+     << "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n"
+     << "MakeNamedMedium \"gas\" \"string type\" \"homogeneous\" \"rgb sigma_s\" [ " << 4 * albedo << ' '
+     << 4 * albedo << ' ' << 4 * albedo << " ] \"rgb sigma_a\" [ " << 4 - 4 * albedo << ' ' << 4 - 4 * albedo
+     << ' ' << 4 - 4 * albedo << " ]\nMediumInterface \"gas\" \"\"\nMaterial \"\"\n"
+     << "Shape \"sphere\" \"float radius\" 1\nWorldEnd\n";
+  return os.str();
+}
+
+/// Mean over the pixels.
+double pixelVariance(const std::string& scene) {
+  std::vector<RunningStats> pixels;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const Image image = renderText(scene, {.seed = seed}).image;
+    pixels.resize(image.data().size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i].add(static_cast<double>(image.data()[i]));
+  }
+  double sum = 0;
+  for (const RunningStats& pixel : pixels) sum += pixel.variance();
+  return sum / static_cast<double>(pixels.size());
+}
+
+TEST(LightChoice, LeavesSkiesToScatteringInMediaThatAbsorbLittle) {
+  const auto shadowRays = [](const Rendered& r) { return r.result.counters.shadowRays; };
+  // The only light is sampled by all strategies where half is absorbed.
+  const Rendered power = renderText(ballUnderSky("power", .5)), tree = renderText(ballUnderSky("tree", .5));
+  EXPECT_EQ(power.image.data(), tree.image.data());
+  EXPECT_GT(shadowRays(tree), 0u);
+  EXPECT_GT(shadowRays(renderText(ballUnderSky("power", .95))), 0u);
+  EXPECT_EQ(shadowRays(renderText(ballUnderSky("tree", .95))), 0u);
+  const std::string sampled = ballUnderSky("power", .99), left = ballUnderSky("tree", .99);
+  EXPECT_LT(std::abs(zOf(meansOf(sampled), meansOf(left))), kMaxAbsZ);
+  EXPECT_LT(pixelVariance(left), .5 * pixelVariance(sampled));
 }
 
 TEST(LightChoice, ThatWasLearnedDependsOnNoThreadTileOrCrop) {

@@ -32,7 +32,7 @@ struct PathParams {
   int maxDepth = 5;       ///< scattering vertices of a path; 0: visible emission only
   float rrThreshold = 1;  ///< roulette is played on throughputs below it; 0: never
   std::string lightSampleStrategy =
-      "spatial";  ///< a word of lightStrategyOfName; for whoever makes the selector
+      "tree";  ///< a word of lightStrategyOfName; for whoever makes the selector
   MediumLightSampling mediumLightSampling = {};                ///< `volpath` only
   ChannelSampling channelSampling = ChannelSampling::Auto;     ///< `volpath` only
   MisTransmittance misTransmittance = MisTransmittance::None;  ///< `volpath` only

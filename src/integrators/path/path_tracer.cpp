@@ -160,7 +160,8 @@ bool PathTracer::passMedium(const Way& way, const SceneHit* hit, PathEvent& even
              flight.t,
              stretch.tMin(),
              stretch.tMax(),
-             lit ? std::optional(lit->extinction) : std::nullopt};
+             lit ? std::optional(lit->extinction) : std::nullopt,
+             flight.weight.max()};
   if (!isFinite(medium_.at.p)) return false;  // beyond what coordinates can tell: nothing is out there
   event = PathEvent::Medium;
   return false;

@@ -52,6 +52,7 @@ class PathTracer {
     const PhaseFunction* phase;
     double t, tMin, tMax;              ///< on the ray, and the stretch in media that it was sampled on
     std::optional<double> extinction;  ///< LitStretch; nothing: no lights were sampled on the stretch
+    float scattered;                   ///< what the flight says of the albedo, of the channel with most
   };
 
   /// The way from one scattering event toward the next.
