@@ -78,7 +78,8 @@ FieldMedium::FieldMedium(const FieldMediumParams& params, std::string_view typeN
                                 : chooseEstimator({.lines = lineStatistics(*kernel_),
                                                    .sigmaT = static_cast<double>(sigmaT_.max()),
                                                    .provenBounds = kernel_->bounds().areProven(),
-                                                   .batchedLookups = kernel_->hasBatches()});
+                                                   .batchedLookups = kernel_->hasBatches(),
+                                                   .onlyAbsorbs = sigmaS_.isBlack()});
   tellsSpread_ = traitsOf(estimator_).tellsSpread;
   law_ = lawOf(estimator_);
   isExponential_ = std::holds_alternative<ExponentialLaw>(law_);

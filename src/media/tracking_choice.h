@@ -13,9 +13,11 @@ struct TrackingFacts {
   double sigmaT = 0;            ///< of the densest channel at density 1, 1/world length
   bool provenBounds = false;    ///< bounds and means are those of the data
   bool batchedLookups = false;  ///< many points of a line cost less than as many single ones
+  bool onlyAbsorbs = false;     ///< transmittance is all the noise there is
 };
 
 /// The estimator of the least variance times time, by measurements of whole renders (docs/scene-language.md):
+///   - nothing is scattered, and lines cross many cubic pieces: telescoping ray marching, the least noise;
 ///   - lines cross few cubic pieces: regular tracking, exact for few look-ups;
 ///   - bounds close in on the density: residual ratio tracking, few look-ups and little variance;
 ///   - thin, even and quick to look up: debiased ray marching, nearly exact for a batch of look-ups;

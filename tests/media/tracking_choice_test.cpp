@@ -46,6 +46,15 @@ TEST(TrackingChoice, FollowsWhatLinesMeet) {
   EXPECT_EQ(chosen(constant), "residual-ratio");
 }
 
+TEST(TrackingChoice, SparesNoLookUpWhereTransmittanceIsAllTheNoise) {
+  for (TrackingFacts facts : {thinGrid(), TrackingFacts{.lines = {.lowerShare = .9}, .provenBounds = true}}) {
+    facts.onlyAbsorbs = true;
+    EXPECT_EQ(chosen(facts), "telescoping-ray-marching");
+    facts.lines.pieces = 8;
+    EXPECT_NE(chosen(facts), "telescoping-ray-marching") << "what is exact is no better";
+  }
+}
+
 TEST(TrackingChoice, TrustsNoBoundThatNobodyProved) {
   for (TrackingFacts facts : {thinGrid(), TrackingFacts{.lines = {.pieces = 2, .lowerShare = 1}}}) {
     facts.provenBounds = false;
@@ -54,10 +63,10 @@ TEST(TrackingChoice, TrustsNoBoundThatNobodyProved) {
   }
 }
 
-std::unique_ptr<Medium> mediumOf(const GridField::Params& grid, float sigmaT) {
+std::unique_ptr<Medium> mediumOf(const GridField::Params& grid, float sigmaT, float albedo = .5f) {
   GridMediumParams params;
-  params.sigmaA = Rgb(sigmaT);
-  params.sigmaS = Rgb(0);
+  params.sigmaA = Rgb((1 - albedo) * sigmaT);
+  params.sigmaS = Rgb(albedo * sigmaT);
   params.grid = grid;
   return makeGridMedium(params, Transform());
 }
@@ -79,6 +88,10 @@ TEST(TrackingChoice, IsMadeFromTheMediumsOwnStatistics) {
   expectDescribed(*mediumOf(roughGrid(4), 1), "regular");
   expectDescribed(*mediumOf(roughGrid(48), 1), "debiased-ray-marching");
   expectDescribed(*mediumOf(roughGrid(48), 100), "ratio");
+  for (const float sigmaT : {1.0f, 100.0f}) {
+    expectDescribed(*mediumOf(roughGrid(48), sigmaT, 0), "telescoping-ray-marching");
+    expectDescribed(*mediumOf(roughGrid(4), sigmaT, 0), "regular");
+  }
 }
 
 TEST(LineStatistics, AreTheIntegralsOverTheChords) {
