@@ -10,6 +10,7 @@
 namespace pbrtmedia {
 namespace {
 
+using test::FourierFile;
 using test::FourierSample;
 using test::polar;
 
@@ -67,6 +68,52 @@ TEST(FourierScattering, ReturnsWhatItsTableSays) {
   }
 }
 
+/// Of laws that are: only splines between their cosines are not, most where sines bend.
+TEST(FourierScattering, IsReciprocalAsItsTable) {
+  const FourierTable table =
+      FourierTable::parse(test::FourierMirror{}.bytes(test::fourierCosines(32, true)), "t.bsdf");
+  const FourierTable tilted = tableOf({.eta = 1, .cosines = test::fourierCosines(8, true), .azimuthal = .9f});
+  Rng rng(12);
+  int compared = 0;
+  double worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3f a = sampleUniformSphere({rng.uniform(), rng.uniform()}),
+                   b = sampleUniformSphere({rng.uniform(), rng.uniform()});
+    const auto isFarFromEnds = [](float z) { return std::abs(z) > .15f && std::abs(z) < .85f; };
+    if (!isFarFromEnds(a.z) || !isFarFromEnds(b.z)) continue;
+    for (const FourierTable* t : {&table, &tilted}) {
+      const float there = FourierScattering{t}.f(a, b).g, back = FourierScattering{t}.f(b, a).g;
+      worst = std::max(worst, double{std::abs(there - back)} / std::max(.05, double{there + back} / 2));
+      compared += there > .05f ? 1 : 0;
+    }
+  }
+  std::printf("reciprocal but for %.2g\n", worst);
+  EXPECT_LT(worst, 1e-2);
+  EXPECT_GT(compared, 500);
+}
+
+/// What the table was made of, which returns as much.
+TEST(FourierScattering, ReturnsWhatFacetsReturn) {
+  const test::FourierMirror facets;
+  const FourierTable table = FourierTable::parse(facets.bytes(test::fourierCosines(24)), "t.bsdf");
+  for (const float degrees : {10.0f, 45.0f, 75.0f}) {
+    const Vector3f wo = polar(degrees, 70);
+    constexpr int kPoints = 200;
+    double truth = 0;
+    for (int i = 0; i < kPoints; ++i) {
+      const double muI = (i + .5) / kPoints;
+      for (int k = 0; k < kPoints; ++k)
+        truth += facets.value(muI, double{wo.z}, 2 * double{kPi} * (k + .5) / kPoints);
+    }
+    truth *= 2 * double{kPi} / (kPoints * kPoints);
+    const test::RunningStats albedo = test::albedoBySampling(
+        test::viewOf(Lobe(Rgb(1), RareLobe(FourierScattering{&table})), wo), 1, 3, 20000);
+    std::printf("%2.0f degrees: %.4f +- %.4f, facets %.4f\n", degrees, albedo.mean(), albedo.standardError(),
+                truth);
+    EXPECT_NEAR(albedo.mean(), truth, 5e-3 + 5 * albedo.standardError()) << degrees;
+  }
+}
+
 TEST(FourierTable, OfAnyBytesIsRefusedOrCanBeAsked) {
   const std::string good = FourierSample{.cosines = test::fourierCosines(2)}.bytes();
   Rng rng(77);
@@ -117,7 +164,7 @@ TEST(FourierTable, RefusesWhatIsNone) {
   for (std::size_t n = 8; n < good.size(); n += 97) expect(good.substr(0, n), "truncated");
   const auto changed = [&](std::size_t word, std::uint32_t to) {
     std::string bytes = good, number;
-    FourierSample::append(number, to);
+    FourierFile::append(number, to);
     return bytes.replace(8 + 4 * word, 4, number);
   };
   expect(changed(0, 2), "found 2 as flags, expected 1");

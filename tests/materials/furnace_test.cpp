@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "materials/fourier.h"
+#include "materials/fourier_sample.h"
 #include "materials/material_test_support.h"
 #include "materials/matte.h"
 #include "materials/mirror.h"
@@ -18,7 +20,6 @@ namespace {
 using namespace test;  // constants by the dozen
 
 /// A material of white parameters, and how much it may return: all of it (at least 1) where nothing absorbs.
-/// `fourier` is as white as its file.
 struct FurnaceCase {
   std::string name;
   std::shared_ptr<const Material> material;
@@ -74,6 +75,20 @@ std::vector<FurnaceCase> furnaceCases() {
   add("Hair", std::make_shared<HairMaterial>(hair), 1, 1);
   cases.back().mode = TransportMode::Radiance;
   add("Subsurface", subsurfaceMaterial(), .5, 1);
+  // As white as their files.
+  const auto fourier = [&](const std::string& name, const std::string& file, double least, double most) {
+    add("Fourier" + name,
+        std::make_shared<FourierMaterial>(std::make_shared<FourierTable>(FourierTable::parse(file, name)),
+                                          nullptr),
+        least, most);
+  };
+  const FourierSample lambert{
+      .eta = 1, .cosines = fourierCosines(8, true), .reflectance = 1, .transmittance = 0};
+  FourierSample halfThrough = lambert;
+  halfThrough.reflectance = halfThrough.transmittance = .5f;
+  fourier("Lambert", lambert.bytes(), 1, 1);
+  fourier("LambertOnBothSides", halfThrough.bytes(), 1, 1);
+  fourier("Mirror", FourierMirror{}.bytes(fourierCosines(24, true)), .6, 1);
   add("Mix", std::make_shared<MixMaterial>(white, mirror, kHalf), 1, 1);
   const auto disney = [&](const std::string& name, double least, double most, auto... parts) {
     DisneyParams p = whiteDisney();

@@ -53,6 +53,10 @@ std::vector<MaterialCase> materialCases() {
                           std::make_shared<FourierTable>(FourierTable::parse(
                               FourierSample{.cosines = fourierCosines(8)}.bytes(), "t.bsdf")),
                           nullptr)},
+          {"FourierMirror",
+           std::make_shared<FourierMaterial>(std::make_shared<FourierTable>(FourierTable::parse(
+                                                 FourierMirror{}.bytes(fourierCosines(24)), "t.bsdf")),
+                                             nullptr)},
           {"Mix", std::make_shared<MixMaterial>(matte, translucent, kReddish)}};
 }
 
