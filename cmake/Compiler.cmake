@@ -27,3 +27,6 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+# COMPILE_OPTIONS of sources that run once per program and compile much of a header-only library (command lines, JSON):
+# most of their time is optimisation that nobody would notice.
+set(PBRT_MEDIA_RUN_ONCE "$<$<CONFIG:Release>:-O1>")
