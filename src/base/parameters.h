@@ -2,11 +2,9 @@
 #pragma once
 
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
-#include <sstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -56,85 +54,51 @@ std::string formatNumber(double value);  ///< shortest text that reads back as t
 double decimalOf(float value);
 std::string textOf(const ParameterValue& value);  ///< as messages quote it
 
+/// A parameter of any owner and type, with its value: what describes and reads parameters is compiled once.
+struct NumericParameter {
+  enum class Kind { Bool, Choice, Integer, Float };
+  std::string_view name;
+  std::string_view help;
+  Kind kind = Kind::Float;
+  double value = 0;                             ///< of a bool 0 or 1, of a choice its place among `choices`
+  double min = 0;                               ///< as Parameter::min
+  double max = 0;                               ///< as Parameter::max
+  double largest = 0;                           ///< that an integer can hold
+  std::span<const std::string_view> choices{};  ///< outlive this
+};
+
+ParameterDescription describe(const NumericParameter& parameter);
+/// Reads `given` into `parameter.value`; what is wrong with it otherwise ("found 3, expected 0 to 1").
+std::optional<std::string> readValue(NumericParameter& parameter, const ParameterValue& given);
+
 template <class Owner, class T>
-ParameterDescription describe(const Owner& owner, const Parameter<Owner, T>& parameter) {
-  ParameterDescription d{std::string(parameter.name), "", "", "", std::string(parameter.help)};
-  const T& value = owner.*parameter.member;
+NumericParameter numericOf(const Owner& owner, const Parameter<Owner, T>& parameter) {
+  using Kind = NumericParameter::Kind;
+  NumericParameter numeric{.name = parameter.name,
+                           .help = parameter.help,
+                           .value = static_cast<double>(owner.*parameter.member),
+                           .min = parameter.min,
+                           .max = parameter.max};
   if constexpr (std::is_same_v<T, bool>) {
-    d.type = "bool";
-    d.value = value ? "true" : "false";
+    numeric.kind = Kind::Bool;
   } else if constexpr (std::is_enum_v<T>) {
-    d.type = "string";
-    d.value = kChoices<T>[static_cast<std::size_t>(value)];
-    for (const std::string_view word : kChoices<T>) {
-      if (!d.allowed.empty()) d.allowed += ", ";
-      d.allowed += word;
-    }
-  } else {
-    d.type = std::is_integral_v<T> ? "integer" : "float";
-    d.value = formatNumber(static_cast<double>(value));
-    const bool below = std::isfinite(parameter.min), above = std::isfinite(parameter.max);
-    if (below && above) {
-      d.allowed = formatNumber(parameter.min);
-      d.allowed += " to ";
-      d.allowed += formatNumber(parameter.max);
-    } else if (below) {
-      d.allowed = "at least ";
-      d.allowed += formatNumber(parameter.min);
-    } else if (above) {
-      d.allowed = "at most ";
-      d.allowed += formatNumber(parameter.max);
-    }
+    numeric.kind = Kind::Choice;
+    numeric.choices = kChoices<T>;
+  } else if constexpr (std::is_integral_v<T>) {
+    numeric.kind = Kind::Integer;
+    numeric.largest = static_cast<double>(std::numeric_limits<T>::max());
   }
-  return d;
+  return numeric;
 }
 
-/// Stores `value`; what is wrong with it otherwise ("found 3, expected 0 to 1").
+/// Stores `value`; what is wrong with it otherwise.
 template <class Owner, class T>
 std::optional<std::string> assign(Owner& owner, const Parameter<Owner, T>& parameter,
                                   const ParameterValue& value) {
-  T& target = owner.*parameter.member;
-  const auto complain = [&](const std::string& found) {
-    const ParameterDescription d = describe(owner, parameter);
-    std::string text = "found ";
-    text += found;
-    text += ", expected ";
-    text += d.type == "bool" ? "true or false" : d.type == "string" ? "one of " : "a ";
-    if (d.type == "float" || d.type == "integer") text += d.type == "float" ? "number " : "whole number ";
-    text += d.allowed;
-    if (text.back() == ' ') text.pop_back();
-    return std::optional(text);
-  };
-  if constexpr (std::is_same_v<T, bool>) {
-    if (const bool* b = std::get_if<bool>(&value)) {
-      target = *b;
-      return std::nullopt;
-    }
-  } else if constexpr (std::is_enum_v<T>) {
-    if (const std::string* word = std::get_if<std::string>(&value)) {
-      for (std::size_t i = 0; i < kChoices<T>.size(); ++i) {
-        if (kChoices<T>[i] == *word) {
-          target = static_cast<T>(i);
-          return std::nullopt;
-        }
-      }
-    }
-  } else {
-    if (const double* number = std::get_if<double>(&value)) {
-      const bool fits = *number >= parameter.min && *number <= parameter.max && std::isfinite(*number);
-      if constexpr (std::is_integral_v<T>) {
-        if (fits && *number == std::floor(*number) && std::abs(*number) <= 0x1p53 &&
-            *number <= static_cast<double>(std::numeric_limits<T>::max())) {
-          target = static_cast<T>(*number);
-          return std::nullopt;
-        }
-      } else if (fits) {
-        target = static_cast<T>(*number);
-        return std::nullopt;
-      }
-    }
-  }
-  return complain(textOf(value));
+  NumericParameter numeric = numericOf(owner, parameter);
+  std::optional<std::string> error = readValue(numeric, value);
+  if (!error) owner.*parameter.member = static_cast<T>(numeric.value);
+  return error;
 }
 
 /// The parameters of an owner without any.
@@ -156,7 +120,7 @@ std::vector<ParameterDescription> describeParameters(const Owner& owner) {
   if constexpr (HasOwnParameters<Owner>) {
     all = owner.describe();
   } else if constexpr (HasParameters<Owner>) {
-    std::apply([&](const auto&... parameter) { (all.push_back(describe(owner, parameter)), ...); },
+    std::apply([&](const auto&... parameter) { (all.push_back(describe(numericOf(owner, parameter))), ...); },
                Owner::parameters());
   }
   return all;
