@@ -47,16 +47,11 @@ struct ReciprocalTelescoping {
 
   static constexpr auto parameters() {
     using Self = ReciprocalTelescoping;
-    using L = TelescopingLevels;
-    return std::tuple{Parameter{"n", &Self::n, L::kCountHelp, 1, L::kMostBaseTeeth},
-                      Parameter{"levels", &Self::levels, L::kBaseHelp, 0, L::kMostBaseLevel},
-                      Parameter{"rate", &Self::rate, L::kRateHelp, L::kLeastRate, L::kLargestRate},
-                      Parameter{"comb", &Self::comb, CombSettings::kCombHelp},
-                      Parameter{"correction", &Self::correction,
-                                "one random level (single), or all up to a random level (prefix)"},
-                      Parameter{"reuse", &Self::reuse,
-                                "read the coarse estimate off the march of the correction, for no look-up"},
-                      Parameter{"maxlookups", &Self::maxLookups, L::kLimitHelp, 0}};
+    return std::tuple_cat(
+        TelescopedMarch::marchParameters<Self>(),
+        std::tuple{Parameter{"correction", &Self::correction,
+                             "one random level (single), or all up to a random level (prefix)"}},
+        TelescopedMarch::costParameters<Self>());
   }
   ReciprocalTraits traits() const {
     return {.summary = "the reciprocal of a coarse march, plus random corrections by refinement",

@@ -65,6 +65,7 @@ struct AdaptiveRatioTracking {
     std::array<RunningProduct, N> weight;
     double exponent = 0;  // of the common factor
     bool isZero = false;
+    // No PoissonWalk: the rate changes at every point, and the steps between points are weights.
     double depth = stream.exponential();
     line.walk([&](double sEnter, double sExit, const auto& bound) {
       const double upper = bound.upper, majorant = sigmaMax * upper;

@@ -46,15 +46,8 @@ struct DebiasedRayMarching {
   std::uint64_t maxLookups = 0;
 
   static constexpr auto parameters() {
-    using D = DebiasedRayMarching;
-    using L = TelescopingLevels;
-    return std::tuple{Parameter{"n", &D::n, L::kCountHelp, 1, L::kMostBaseTeeth},
-                      Parameter{"levels", &D::levels, L::kBaseHelp, 0, L::kMostBaseLevel},
-                      Parameter{"rate", &D::rate, L::kRateHelp, L::kLeastRate, L::kLargestRate},
-                      Parameter{"comb", &D::comb, CombSettings::kCombHelp},
-                      Parameter{"reuse", &D::reuse,
-                                "read the coarse estimate off the march of the correction, for no look-up"},
-                      Parameter{"maxlookups", &D::maxLookups, L::kLimitHelp, 0}};
+    using Self = DebiasedRayMarching;
+    return std::tuple_cat(TelescopedMarch::marchParameters<Self>(), TelescopedMarch::costParameters<Self>());
   }
   EstimatorTraits traits() const {
     EstimatorTraits traits = TelescopingLevels::traits(comb, rate, law, maxLookups);

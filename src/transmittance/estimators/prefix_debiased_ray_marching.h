@@ -45,15 +45,8 @@ struct PrefixDebiasedRayMarching {
   std::uint64_t maxLookups = 0;
 
   static constexpr auto parameters() {
-    using P = PrefixDebiasedRayMarching;
-    using L = TelescopingLevels;
-    return std::tuple{Parameter{"n", &P::n, L::kCountHelp, 1, L::kMostBaseTeeth},
-                      Parameter{"levels", &P::levels, L::kBaseHelp, 0, L::kMostBaseLevel},
-                      Parameter{"rate", &P::rate, L::kRateHelp, L::kLeastRate, L::kLargestRate},
-                      Parameter{"comb", &P::comb, CombSettings::kCombHelp},
-                      Parameter{"reuse", &P::reuse,
-                                "read the coarse estimate off the march of the corrections, for no look-up"},
-                      Parameter{"maxlookups", &P::maxLookups, L::kLimitHelp, 0}};
+    using Self = PrefixDebiasedRayMarching;
+    return std::tuple_cat(TelescopedMarch::marchParameters<Self>(), TelescopedMarch::costParameters<Self>());
   }
   EstimatorTraits traits() const {
     EstimatorTraits traits = TelescopingLevels::traits(comb, rate, law, maxLookups);

@@ -13,6 +13,7 @@
 #include "transmittance/parts/bounded_lookup.h"
 #include "transmittance/parts/channel_shares.h"
 #include "transmittance/parts/lookup_limit.h"
+#include "transmittance/parts/poisson_walk.h"
 #include "transmittance/sample_stream.h"
 #include "transmittance/traits.h"
 
@@ -62,28 +63,21 @@ struct RatioTracking {
     Channels<N>& weight = estimate.value;
     LookupTally& tally = estimate.tally;
     const LookupLimit limit(maxLookups);
-    double depth = stream.exponential();  // optical depth of the majorant to the next tentative collision
+    PoissonWalk walk(stream);
     line.walk([&](double sEnter, double sExit, const auto& bound) {
       if (!(bound.upper > 0)) {
         probeTrusted(line, sEnter, sExit, 0, stream.rng(), tally);
         return true;
       }
-      const double upper = bound.upper, majorant = sigmaMax * upper, inverse = 1 / majorant;
-      for (double s = sEnter;;) {
-        const double depthToExit = (sExit - s) * majorant;
-        if (depth >= depthToExit) {
-          depth -= depthToExit;
-          return true;
-        }
+      const double upper = bound.upper;
+      return walk.crossByInverse(sEnter, sExit, sigmaMax * upper, [&](double s) {
         if (limit.reached(tally)) return false;
-        s += depth * inverse;
         // Divided, not multiplied by 1 / upper: a density that is its bound leaves exactly nothing.
         const Channels<N> null = nullShares(share, boundedLookup(line, s, upper, tally) / upper);
         ++tally.nullCollisions;
         for (std::size_t c = 0; c < N; ++c) weight[c] *= null[c];
-        if (!survives(weight, stream)) return false;
-        depth = stream.exponential();
-      }
+        return survives(weight, stream);
+      });
     });
     return estimate;
   }

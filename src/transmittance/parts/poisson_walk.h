@@ -16,19 +16,31 @@ class PoissonWalk {
   /// after which the walk is over. rate: >= 0, per unit of s.
   template <class Visit>
   bool cross(double sEnter, double sExit, double rate, Visit&& visit) {
+    return crossBy(
+        sEnter, sExit, rate, [rate](double depth) { return depth / rate; }, visit);
+  }
+  /// The same, for who crosses dense stretches: steps are multiplied by 1 / rate. rate: > 0.
+  template <class Visit>
+  bool crossByInverse(double sEnter, double sExit, double rate, Visit&& visit) {
+    return crossBy(
+        sEnter, sExit, rate, [inverse = 1 / rate](double depth) { return depth * inverse; }, visit);
+  }
+
+ private:
+  template <class StepOf, class Visit>
+  bool crossBy(double sEnter, double sExit, double rate, const StepOf& stepOf, Visit& visit) {
     for (double s = sEnter;;) {
       const double depthToExit = (sExit - s) * rate;
       if (depth_ >= depthToExit) {
         depth_ -= depthToExit;
         return true;
       }
-      s += depth_ / rate;
+      s += stepOf(depth_);
       if (!visit(s)) return false;
       depth_ = stream_->exponential();
     }
   }
 
- private:
   SampleStream* stream_;
   double depth_;  ///< what the integral of the rate has to grow by until the next point
 };

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 
+#include "base/parameters.h"
 #include "fields/density_line.h"
 #include "transmittance/estimate.h"
 #include "transmittance/parts/comb.h"
@@ -30,6 +32,23 @@ struct TelescopedMarch {
   Comb comb = Comb::Equidistant;
   bool reuse = true;              ///< the coarse march is part of that of the correction
   std::uint64_t mostLookups = 0;  ///< 0: no limit but that of TelescopingLevels
+
+  /// The parameters of these names that an estimator over such marches has, in two groups, between which
+  /// there may be others.
+  template <class Estimator>
+  static constexpr auto marchParameters() {
+    using L = TelescopingLevels;
+    return std::tuple{Parameter{"n", &Estimator::n, L::kCountHelp, 1, L::kMostBaseTeeth},
+                      Parameter{"levels", &Estimator::levels, L::kBaseHelp, 0, L::kMostBaseLevel},
+                      Parameter{"rate", &Estimator::rate, L::kRateHelp, L::kLeastRate, L::kLargestRate},
+                      Parameter{"comb", &Estimator::comb, CombSettings::kCombHelp}};
+  }
+  template <class Estimator>
+  static constexpr auto costParameters() {
+    return std::tuple{Parameter{"reuse", &Estimator::reuse,
+                                "read the coarse estimate off the march of the correction, for no look-up"},
+                      Parameter{"maxlookups", &Estimator::maxLookups, TelescopingLevels::kLimitHelp, 0}};
+  }
 
   /// I(k) + Delta_j / p(j), Eq. (14). Cost: n 2^k (1 + 2 r / (2 r - 1)) look-ups on average, without the 1
   /// under reuse.
