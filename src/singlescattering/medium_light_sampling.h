@@ -55,4 +55,18 @@ inline MediumLightSamplingTraits traitsOf(const MediumLightSampling& sampling) {
   return std::visit([](const auto& held) { return held.traits(); }, sampling);
 }
 
+/// What a sample of a stretch counts: its share divided by its density.
+inline double weightOf(const MediumLightSampling& sampling, const StretchSample& sample,
+                       const CollisionDensity& collisions) {
+  return std::visit(
+      [&]<class Sampling>(const Sampling& held) {
+        if constexpr (ExploringSampling<Sampling>) {
+          return sample.walked->weight;
+        } else {
+          return held.weight(sample, collisions);
+        }
+      },
+      sampling);
+}
+
 }  // namespace pbrtmedia

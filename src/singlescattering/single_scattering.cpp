@@ -21,24 +21,6 @@ std::optional<LitStretch> SingleScattering::lit(const MediaStretch& media) const
   return with(media, extinction);
 }
 
-namespace {
-
-/// What the way of sampling says of a sample: its share divided by its density.
-double weightOf(const MediumLightSampling& sampling, const StretchSample& sample,
-                const CollisionDensity& collisions) {
-  return std::visit(
-      [&]<class Sampling>(const Sampling& held) {
-        if constexpr (ExploringSampling<Sampling>) {
-          return sample.walked->weight;
-        } else {
-          return held.weight(sample, collisions);
-        }
-      },
-      sampling);
-}
-
-}  // namespace
-
 Rgb SingleScattering::radiance(const LitStretch& stretch, const StretchSample& sample, const ScatterPoint& at,
                                Rgb throughput, const MediaWalk::Context& shadows, PixelStream random) const {
   const MediaStretch before = stretch.media.upTo(sample.t);

@@ -128,20 +128,6 @@ TEST_P(SamplingContract, GivesTheExactSingleScatteringOfHomogeneousFog) {
   }
 }
 
-/// What a sample counts: its share divided by its density.
-double weightOf(const MediumLightSampling& sampling, const StretchSample& sample,
-                const CollisionDensity& collisions) {
-  return std::visit(
-      [&]<class Sampling>(const Sampling& held) {
-        if constexpr (ExploringSampling<Sampling>) {
-          return sample.walked->weight;
-        } else {
-          return held.weight(sample, collisions);
-        }
-      },
-      sampling);
-}
-
 TEST_P(SamplingContract, DividesTheWorkWithCollisionsExactly) {
   if (explores(sampling_)) return;  // the next test is theirs
   // Where a stretch takes a sample, its share of it and that of a collision there are one.
