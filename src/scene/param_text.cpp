@@ -18,6 +18,7 @@ ParamList parseParams(std::string_view text, std::string_view shownName, Variabl
   TokenStream tokens(all, variables);
   const InputFolders folders{".", "."};
   tokens.pushText(text, shownName, folders);
+  tokens.expectNoDirectives();
   ParamParser parser(tokens, all, true);
   ParamList list;
   try {

@@ -136,8 +136,9 @@ void TokenStream::pushValue(const Token& variable) {
   if (!value) {
     std::string message = "no variable \"" + shown(name) + '"';
     message += suggestion(name, variables_.names());
-    message += "; give it a value: --define " + shown(name) + "=VALUE, or Define \"";
-    throw SceneError(locate(variable), message + shown(name) + "\" VALUE above");
+    message += "; give it a value: --define " + shown(name) + "=VALUE";
+    if (hasDirectives_) message += ", or Define \"" + shown(name) + "\" VALUE above";
+    throw SceneError(locate(variable), message);
   }
   const std::uint32_t origin = variable.source;
   open_.push_back({std::nullopt, Lexer(*value, 0, false), origin, {}, locate(variable), 0, variable});

@@ -33,6 +33,8 @@ class TokenStream {
   void pushFile(const std::filesystem::path& path, InputFolders folders, const SourceLocation& includedAt);
   /// Reads on in a text that outlives the stream.
   void pushText(std::string_view text, std::string_view shownName, InputFolders folders);
+  /// What is read holds parameters alone: messages recommend no directive.
+  void expectNoDirectives() { hasDirectives_ = false; }
 
   /// Throws SceneError at a variable without a value.
   const Token& peek();
@@ -111,6 +113,7 @@ class TokenStream {
   std::uint64_t textHash_ = 0;
   bool skipping_ = false;  ///< behind an error: no file is left before its end
   bool keepComments_;
+  bool hasDirectives_ = true;
 };
 
 }  // namespace pbrtmedia

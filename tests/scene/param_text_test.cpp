@@ -54,6 +54,14 @@ TEST(ParseParams, TellsWhereAndWhatIsWrong) {
   }
 }
 
+TEST(ParseParams, RecommendsNoDirectiveForAVariableWithoutAValue) {
+  Diagnostics diagnostics;
+  Variables variables;
+  parseParams("\"float g\" $k", kName, variables, diagnostics);
+  const std::string said = diagnostics.format();
+  EXPECT_NE(said.find("no variable \"k\"; give it a value: --define k=VALUE\n"), said.npos) << said;
+}
+
 TEST(ParseParams, TakesTheValuesOfVariables) {
   Diagnostics diagnostics;
   Variables variables;

@@ -143,7 +143,7 @@ TEST(Variables, ErrorsStandWhereTheVariableIs) {
   };
   std::string said = message(with({{"fog", "1"}}), "Define \"tau\" 1\nTranslate 0 0 $tua\nScale $fog 1 1\n");
   expectIn(said, "t.pbrt:2:15: error: no variable \"tua\"; did you mean \"tau\"?");
-  expectIn(said, "--define tua=VALUE");
+  expectIn(said, "--define tua=VALUE, or Define \"tua\" VALUE above");
   EXPECT_EQ(said.find("fog: nothing"), said.npos) << "it was used";
   said = message(with({{"fov", "wide"}}), "Translate 1 2 $fov\n");
   expectIn(said, "t.pbrt:1:15: error: Translate: found \"wide\" after 2");
