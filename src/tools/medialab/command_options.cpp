@@ -10,8 +10,6 @@ namespace {
 
 constexpr unsigned kMostThreads = 4096;
 
-}  // namespace
-
 void addTableOptions(CLI::App* c, LabOptions& o) {
   c->add_option("-o,--outfile", o.outfile, "file to write, .csv, .json or .txt (standard output)");
   std::map<std::string, TableFormat> formats;
@@ -20,6 +18,16 @@ void addTableOptions(CLI::App* c, LabOptions& o) {
                 "csv, json or text (as the file's name ends; without a file text on a terminal, else csv)")
       ->transform(oneOf(formats))
       ->type_name("NAME");
+}
+
+}  // namespace
+
+CLI::App* addTableCommand(CLI::App& app, const char* name, const char* about, LabOptions& o,
+                          const Words& words) {
+  CLI::App* const c = app.add_subcommand(name, about);
+  addLabOptions(c, o, words);
+  addTableOptions(c, o);
+  return c;
 }
 
 void addLabOptions(CLI::App* c, LabOptions& o, const Words& words) {
@@ -38,7 +46,17 @@ void addResume(CLI::App* c, LabOptions& o) {
                 "file that keeps what is measured: the same command goes on where it was stopped or killed");
 }
 
-void addQuantity(CLI::App* c, EstimatorSelection& o) {
+void addSelection(CLI::App* c, EstimatorSelection& o) {
+  c->add_option("--estimator", o.estimators,
+                "names, names with parameters (ray-marching:stepsize=0.1), or all (all)")
+      ->delimiter(',')
+      ->take_all();
+  c->add_option("--law", o.law, "transmittance law (each estimator's own, mostly exponential)");
+  c->add_option("--param", o.params, "name=value of the law and of every estimator chosen");
+}
+
+void addMeasured(CLI::App* c, EstimatorSelection& o) {
+  addSelection(c, o);
   std::map<std::string, Quantity> names;
   for (const std::string_view name : quantityNames()) names.emplace(name, *findQuantity(name));
   c->add_option(
@@ -47,15 +65,6 @@ void addQuantity(CLI::App* c, EstimatorSelection& o) {
        "estimators named; of all: transmittance)")
       ->transform(oneOf(names))
       ->type_name("NAME");
-}
-
-void addSelection(CLI::App* c, EstimatorSelection& o) {
-  c->add_option("--estimator", o.estimators,
-                "names, names with parameters (ray-marching:stepsize=0.1), or all (all)")
-      ->delimiter(',')
-      ->take_all();
-  c->add_option("--law", o.law, "transmittance law (each estimator's own, mostly exponential)");
-  c->add_option("--param", o.params, "name=value of the law and of every estimator chosen");
 }
 
 void addProblem(CLI::App* c, ProblemOptions& o, bool hasDepths) {
@@ -130,6 +139,12 @@ void addPattern(CLI::App* c, PatternKind& pattern) {
   c->add_option("--pattern", pattern, "of the random numbers of the estimates in a trial (independent)")
       ->transform(oneOf(names))
       ->type_name("NAME");
+}
+
+void addPlan(CLI::App* c, TrialPlan& plan) {
+  addPattern(c, plan.pattern);
+  c->add_option("--samples-per-estimate", plan.samples, "estimates averaged by a trial (1)")
+      ->check(wholeNumber(1u, kMostSamples));
 }
 
 }  // namespace pbrtmedia

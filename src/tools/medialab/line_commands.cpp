@@ -9,8 +9,8 @@ namespace pbrtmedia {
 namespace {
 
 void addLevels(CLI::App& app, LevelsOptions& o, const Words& words, Run& run) {
-  CLI::App* c =
-      app.add_subcommand("levels", "Measure the corrections of a debiased estimator, level by level");
+  CLI::App* c = addTableCommand(
+      app, "levels", "Measure the corrections of a debiased estimator, level by level", o.lab, words);
   c->footer(
       "Mean, variance and look-ups of one correction of each level, under two couplings: the two marches of\n"
       "the coarse level are halves of the fine one (split, as the estimators have it), or one of its own\n"
@@ -18,8 +18,6 @@ void addLevels(CLI::App& app, LevelsOptions& o, const Words& words, Run& run) {
       "estimate, lookups_share what it adds to its mean look-ups: where the one grows with the level, or "
       "the\n"
       "other, variance or cost is infinite.");
-  addLabOptions(c, o.lab, words);
-  addTableOptions(c, o.lab);
   c->add_option(
        "--estimator", o.selection.estimators,
        "debiased-ray-marching, prefix-debiased-ray-marching or reciprocal-telescoping, with parameters "
@@ -33,11 +31,11 @@ void addLevels(CLI::App& app, LevelsOptions& o, const Words& words, Run& run) {
   c->add_option("--levels", o.levels, "levels from the estimator's own coarse one on (8)")
       ->check(wholeNumber(1u, LevelsOptions::kMostLevels));
   c->add_option("--trials", o.trials, "of each row (10000)")->check(wholeNumber(4ull, kMostTrials));
-  c->callback([&o, &run] { run = [&o] { return runLevels(o); }; });
+  runWhenChosen(c, run, o, runLevels);
 }
 
 void addRunning(CLI::App& app, RunningOptions& o, const Words& words, Run& run) {
-  CLI::App* c = app.add_subcommand("running", "Show estimates as they grow along a line");
+  CLI::App* c = addTableCommand(app, "running", "Show estimates as they grow along a line", o.lab, words);
   c->footer(
       "The estimate of the line cut at s, from the same random numbers for all s: the running weight of\n"
       "estimators that walk (ratio, residual-ratio, adaptive-ratio, track-length, next-flight); others "
@@ -45,10 +43,7 @@ void addRunning(CLI::App& app, RunningOptions& o, const Words& words, Run& run) 
       "their points anew for each s. Rows with the number of a run hold its value; \"mean\" and \"stderr\" "
       "are\n"
       "those of all runs, \"exact\" is the answer.");
-  addLabOptions(c, o.lab, words);
-  addTableOptions(c, o.lab);
-  addSelection(c, o.selection);
-  addQuantity(c, o.selection);
+  addMeasured(c, o.selection);
   addFunction(c, o.function);
   addProblem(c, o.problem, true);
   c->add_option("--to", o.to, "end of the part of the line that is shown (the line's)")
@@ -58,19 +53,18 @@ void addRunning(CLI::App& app, RunningOptions& o, const Words& words, Run& run) 
   c->add_option("--runs", o.runs, "that the mean is taken over (1000)")->check(wholeNumber(2u, 1u << 24));
   c->add_option("--curves", o.curves, "runs that are shown one by one (100)")
       ->check(wholeNumber(0u, 1u << 24));
-  c->callback([&o, &run] { run = [&o] { return runRunning(o); }; });
+  runWhenChosen(c, run, o, runRunning);
 }
 
 void addPowerLaw(CLI::App& app, PowerLawOptions& o, const Words& words, Run& run) {
-  CLI::App* c = app.add_subcommand("power-law", "Measure Monte Carlo means of x^-alpha on (0, 1)");
+  CLI::App* c =
+      addTableCommand(app, "power-law", "Measure Monte Carlo means of x^-alpha on (0, 1)", o.lab, words);
   c->footer(
       "How fast means converge whose variance is infinite: it is finite below alpha = 1/2 only, and the "
       "error\n"
       "falls like samples^-(1 - alpha) above. error is the mean of |mean of n samples / exact - 1| over "
       "trials.\n"
       "The slope is fitted to the larger half of the sizes.");
-  addLabOptions(c, o.lab, words);
-  addTableOptions(c, o.lab);
   c->add_option("--alpha", o.alphas, "exponents, 0 to 1 (0.4,0.6,0.8,0.9)")
       ->delimiter(',')
       ->take_all()
@@ -78,11 +72,12 @@ void addPowerLaw(CLI::App& app, PowerLawOptions& o, const Words& words, Run& run
   c->add_option("--doublings", o.doublings, "the largest mean has 2^doublings samples (14)")
       ->check(wholeNumber(2u, PowerLawOptions::kMostDoublings));
   c->add_option("--trials", o.trials, "of each alpha (1000)")->check(wholeNumber(4ull, kMostTrials));
-  c->callback([&o, &run] { run = [&o] { return runPowerLaw(o); }; });
+  runWhenChosen(c, run, o, runPowerLaw);
 }
 
 void addProgressive(CLI::App& app, ProgressiveOptions& o, const Words& words, Run& run) {
-  CLI::App* c = app.add_subcommand("progressive", "Average passes under upper controls that rise");
+  CLI::App* c =
+      addTableCommand(app, "progressive", "Average passes under upper controls that rise", o.lab, words);
   c->footer(
       "Every pass makes --per-pass estimates under the controls as the pass before has left them, and all\n"
       "passes so far are averaged; --repeats such sequences tell mean and mean square error. Controls begin "
@@ -90,8 +85,6 @@ void addProgressive(CLI::App& app, ProgressiveOptions& o, const Words& words, Ru
       "--start everywhere. Update \"learned\": a look-up above control - epsilon raises the control of its\n"
       "interval, from the next pass on, to density + epsilon; \"rising\": all rise by --rise, up to --most.\n"
       "Densities are cut to the controls unless --unclamped. Extinctions, not densities, all of them.");
-  addLabOptions(c, o.lab, words);
-  addTableOptions(c, o.lab);
   addSelection(c, o.selection);
   addFunction(c, o.function);
   c->add_option("--depth", o.problem.depths, "optical depth (1)")
@@ -117,7 +110,7 @@ void addProgressive(CLI::App& app, ProgressiveOptions& o, const Words& words, Ru
       ->check(number(NumberRange::atLeast(0)));
   c->add_option("--most", o.most, "rising: the largest control (20)")->check(number(NumberRange::above(0)));
   c->add_flag("--unclamped", o.isUnclamped, "densities are not cut to the controls");
-  c->callback([&o, &run] { run = [&o] { return runProgressive(o); }; });
+  runWhenChosen(c, run, o, runProgressive);
 }
 
 }  // namespace

@@ -26,58 +26,53 @@ Json parametersJson(const std::vector<ParameterDescription>& parameters) {
   return all;
 }
 
+/// What the traits of estimators, reciprocals and flights all say.
+template <class Traits>
+Json traitsJson(std::string_view name, const Traits& t) {
+  return {{"name", name},         {"summary", t.summary},   {"source", t.source},
+          {"useWhen", t.useWhen}, {"bias", nameOf(t.bias)}, {"biasNote", t.biasNote}};
+}
+
 Json estimatorJson(std::string_view name) {
   const LabEstimator estimator(name);
   const EstimatorTraits t = estimator.traits();
-  return {{"name", name},
-          {"summary", t.summary},
-          {"source", t.source},
-          {"useWhen", t.useWhen},
-          {"bias", nameOf(t.bias)},
-          {"biasNote", t.biasNote},
-          {"mayLeaveUnitInterval", t.mayLeaveUnitInterval},
-          {"control", nameOf(t.control)},
-          {"finiteVariance", t.finiteVariance},
-          {"finiteVarianceUnbounded", t.finiteVarianceUnbounded},
-          {"boundedCost", t.boundedCost},
-          {"tellsSpread", t.tellsSpread},
-          {"laws", t.laws.names()},
-          {"parameters", parametersJson(estimator.parameters())}};
+  Json all = traitsJson(name, t);
+  all["mayLeaveUnitInterval"] = t.mayLeaveUnitInterval;
+  all["control"] = nameOf(t.control);
+  all["finiteVariance"] = t.finiteVariance;
+  all["finiteVarianceUnbounded"] = t.finiteVarianceUnbounded;
+  all["boundedCost"] = t.boundedCost;
+  all["tellsSpread"] = t.tellsSpread;
+  all["laws"] = t.laws.names();
+  all["parameters"] = parametersJson(estimator.parameters());
+  return all;
 }
 
 Json reciprocalJson(std::string_view name) {
   const AnyReciprocal estimator = *findReciprocal(name);
   const ReciprocalTraits t = traitsOf(estimator);
-  return {{"name", name},
-          {"summary", t.summary},
-          {"source", t.source},
-          {"useWhen", t.useWhen},
-          {"bias", nameOf(t.bias)},
-          {"biasNote", t.biasNote},
-          {"domain", t.domain},
-          {"control", nameOf(t.control)},
-          {"needsPositiveDensity", t.needsPositiveDensity},
-          {"finiteVariance", t.finiteVariance},
-          {"varianceNote", t.varianceNote},
-          {"cost", t.cost},
-          {"boundedCost", t.boundedCost},
-          {"parameters", parametersJson(parametersOf(estimator))}};
+  Json all = traitsJson(name, t);
+  all["domain"] = t.domain;
+  all["control"] = nameOf(t.control);
+  all["needsPositiveDensity"] = t.needsPositiveDensity;
+  all["finiteVariance"] = t.finiteVariance;
+  all["varianceNote"] = t.varianceNote;
+  all["cost"] = t.cost;
+  all["boundedCost"] = t.boundedCost;
+  all["parameters"] = parametersJson(parametersOf(estimator));
+  return all;
 }
 
 Json flightJson(std::string_view name) {
   const AnyFlight flight = *findFlight(name);
   const FlightTraits t = traitsOf(flight);
-  return {{"name", name},
-          {"summary", t.summary},
-          {"source", t.source},
-          {"useWhen", t.useWhen},
-          {"bias", nameOf(t.bias)},
-          {"biasNote", t.biasNote},
-          {"control", nameOf(t.control)},
-          {"unitWeights", t.unitWeights},
-          {"mayBeNegative", t.mayBeNegative},
-          {"laws", t.laws.names()},
-          {"parameters", parametersJson(parametersOf(flight))}};
+  Json all = traitsJson(name, t);
+  all["control"] = nameOf(t.control);
+  all["unitWeights"] = t.unitWeights;
+  all["mayBeNegative"] = t.mayBeNegative;
+  all["laws"] = t.laws.names();
+  all["parameters"] = parametersJson(parametersOf(flight));
+  return all;
 }
 
 Json functionJson(std::string_view name) {
@@ -138,12 +133,16 @@ void printParameters(const Json& parameters) {
   }
 }
 
-void printEstimator(const Json& e) {
+void printTraits(const Json& e) {
   std::cout << "  " << text(e["name"]) << '\n'
             << "      " << text(e["summary"]) << "; " << text(e["source"]) << '\n'
             << "      use when " << text(e["useWhen"]) << '\n'
             << "      " << text(e["bias"]);
   if (!text(e["biasNote"]).empty()) std::cout << " (" << text(e["biasNote"]) << ')';
+}
+
+void printEstimator(const Json& e) {
+  printTraits(e);
   std::cout << "; control: " << text(e["control"])
             << (e["mayLeaveUnitInterval"].get<bool>() ? "; may leave [0, 1]" : "; stays in [0, 1]")
             << (e["finiteVariance"].get<bool>() ? "; finite" : "; infinite") << " variance, "
@@ -155,11 +154,7 @@ void printEstimator(const Json& e) {
 }
 
 void printReciprocal(const Json& e) {
-  std::cout << "  " << text(e["name"]) << '\n'
-            << "      " << text(e["summary"]) << "; " << text(e["source"]) << '\n'
-            << "      use when " << text(e["useWhen"]) << '\n'
-            << "      " << text(e["bias"]);
-  if (!text(e["biasNote"]).empty()) std::cout << " (" << text(e["biasNote"]) << ')';
+  printTraits(e);
   std::cout << " on " << text(e["domain"]) << "; control: " << text(e["control"]) << '\n'
             << "      variance: " << (e["finiteVariance"].get<bool>() ? "finite" : "may be infinite");
   if (!text(e["varianceNote"]).empty()) std::cout << ", " << text(e["varianceNote"]);
@@ -169,11 +164,7 @@ void printReciprocal(const Json& e) {
 }
 
 void printFlight(const Json& e) {
-  std::cout << "  " << text(e["name"]) << '\n'
-            << "      " << text(e["summary"]) << "; " << text(e["source"]) << '\n'
-            << "      use when " << text(e["useWhen"]) << '\n'
-            << "      " << text(e["bias"]);
-  if (!text(e["biasNote"]).empty()) std::cout << " (" << text(e["biasNote"]) << ')';
+  printTraits(e);
   std::cout << "; control: " << text(e["control"]) << "; weights "
             << (e["unitWeights"].get<bool>()     ? "1"
                 : e["mayBeNegative"].get<bool>() ? "of any sign"

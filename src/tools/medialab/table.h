@@ -47,7 +47,7 @@ class LabTable {
 
   /// As many cells as columns.
   void add(std::vector<Cell> row);
-  void note(std::string text) { notes_.push_back(std::move(text)); }
+  void note(std::string_view text) { notes_.emplace_back(text); }
   void skip(std::string what, std::string reason) {
     skipped_.push_back({std::move(what), std::move(reason)});
   }
