@@ -9,6 +9,7 @@
 
 #include "freeflight/flight_list.h"
 #include "support/contract_line.h"
+#include "support/keyword_name.h"
 #include "support/statistics.h"
 
 namespace pbrtmedia {
@@ -271,16 +272,7 @@ TEST_P(SamplerContract, TakesTheSameStepsOnAShorterLine) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SamplerContract, testing::ValuesIn(flightNames()),
-                         [](const testing::TestParamInfo<std::string_view>& parameter) {
-                           std::string name;
-                           bool capital = true;
-                           for (const char c : parameter.param) {
-                             if (c != '-') name += capital ? static_cast<char>(c - 'a' + 'A') : c;
-                             capital = c == '-';
-                           }
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, SamplerContract, testing::ValuesIn(flightNames()), test::keywordName);
 
 TEST_P(SamplerContract, FliesByThePointsOfAPattern) {
   // Stratified first dimensions: no bias, and never more variance than independent flights beyond chance.

@@ -9,6 +9,7 @@
 #include "fields/canonical_line.h"
 #include "reciprocal/any_reciprocal.h"
 #include "support/contract_line.h"
+#include "support/keyword_name.h"
 #include "support/statistics.h"
 
 namespace pbrtmedia {
@@ -215,16 +216,7 @@ TEST_P(ReciprocalContract, StaysFiniteFromThinnestToThickest) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ReciprocalContract, testing::ValuesIn(reciprocalNames()),
-                         [](const testing::TestParamInfo<std::string_view>& parameter) {
-                           std::string name;
-                           bool capital = true;
-                           for (const char c : parameter.param) {
-                             if (c != '-') name += capital ? static_cast<char>(c - 'a' + 'A') : c;
-                             capital = c == '-';
-                           }
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, ReciprocalContract, testing::ValuesIn(reciprocalNames()), test::keywordName);
 
 }  // namespace
 }  // namespace pbrtmedia

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "support/contract_line.h"
+#include "support/keyword_name.h"
 #include "support/run_estimator.h"
 #include "support/statistics.h"
 #include "transmittance/estimator_list.h"
@@ -212,16 +213,7 @@ TEST_P(EstimatorContract, StaysFiniteFromThinnestToThickest) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EstimatorContract, testing::ValuesIn(estimatorNames()),
-                         [](const testing::TestParamInfo<std::string_view>& parameter) {
-                           std::string name;
-                           bool capital = true;
-                           for (const char c : parameter.param) {
-                             if (c != '-') name += capital ? static_cast<char>(c - 'a' + 'A') : c;
-                             capital = c == '-';
-                           }
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(All, EstimatorContract, testing::ValuesIn(estimatorNames()), test::keywordName);
 
 TEST(ContractLine, HasTheIntegralItClaims) {
   const ContractLine line;
