@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// What cmake/StandardHeaders.cmake has compiled once for all rooms: the headers of the standard library that most of
-// them include, and nothing of our own. For GCC alone: under Clang, and for clang-tidy, this is empty, and so each
-// file is seen to include what it uses.
+// What cmake/StandardHeaders.cmake has compiled once for all rooms: the headers of the standard library that
+// most of them include, and nothing of our own. For GCC alone: under Clang, and for clang-tidy, this is
+// empty, and so each file is seen to include what it uses.
 #ifndef __clang__
 #include <algorithm>
 #include <array>
