@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-2-Clause
-"""What stiff and extreme media (scenes/extreme) do to estimators, samplers and integrators: docs/stability.md.
+"""What stiff and extreme media (scenes/extreme) do to estimators, samplers and integrators, and extreme lines to estimators of reciprocals: docs/stability.md.
 
   stability.py [--bin FOLDER] [--only TEXT] [--jobs N] [--csv FILE.csv] [--docs FILE.md] [--check FILE.csv]
 
@@ -10,6 +10,7 @@ Every image of these scenes has the same known value in all of its pixels. Verdi
   told      it is not, and the program says so: in a warning, or as samples that it dropped
   refused   an error says why this cannot be rendered
   biased    it is not, and the list of estimators says that this one is biased
+  told, not tried   of reciprocals, by `medialab stress`: what their traits say cannot work, and what would take too many look-ups, known beforehand
   wrong, slow, broken    never: another value in silence, longer than the limit, a crash or something that is no number
 Exits with 1 when a verdict is one of the last three or, with --check, another than in that file (ok or noisy is the same there).
 """
@@ -31,7 +32,7 @@ SCENES = ROOT / "scenes" / "extreme"
 LIMIT = 120.0  # seconds of one render
 FAULTS = ("wrong", "slow", "broken")
 TABLES = {"estimators": "Estimators, by the shadow of a slab (`floor.pbrt`)", "free flights": "Free flights, in a white furnace (`furnace.pbrt`)",
-          "integrators": "Integrators", "boundary": "The camera on and across a boundary (`boundary.pbrt`)"}
+          "reciprocals": "Reciprocals, on lines (`medialab stress --quantity reciprocal`)", "integrators": "Integrators", "boundary": "The camera on and across a boundary (`boundary.pbrt`)"}
 INTEGRATORS = ("volpath", "bdpt", "mlt", "sppm")
 MLT_SEEDS = 10  # what the mean of an image of chains is worth, other seeds tell and not its pixels
 # What is not run, and why.
@@ -39,6 +40,16 @@ LONG = "paths have up to thousands of vertices, and all of one end are connected
 DEPTH = "the number of scatterings is that of a chain, here at most 60"
 LEFT_OUT = {("bdpt", "furnace 1e6"): LONG, ("bdpt", "furnace deep"): LONG,
             ("mlt", "furnace 100"): DEPTH, ("mlt", "furnace 1e6"): DEPTH, ("mlt", "furnace deep"): DEPTH}
+
+
+# Lines for estimators of 1 / F, src/tools/medialab/stress_cases.cpp; alpha: the integral of the control.
+RECIPROCAL_CASES = {"depth-F": "a sum of sines, F as the name says, the control its largest value", "control-is-F, control-near-F": "a constant, alpha / F 1 and 1 + 1e-9",
+                    "control-k": "a sum of sines, F 1, the control k times its largest value: below 1 it is no bound",
+                    "touches-0, hole-1e-3": "a cosine that is 0 somewhere; a density that is 0 in 1/1000 of the line",
+                    "contrast-1e12, jump, spike-w, fractal": "densities that differ by 1e12, jump, hold half of F in the part w of the line, or are rough",
+                    "tiny-, huge-density, length-, offset-": "other units, and a line that begins a million lengths away",
+                    "depth-0, length-0, no-density": "F 0: infinite is right", "no-density-under-a-control": "F 0, which the control does not tell",
+                    "blind-bound, blind-supervoxel": "a control of 0 over density, on all of the line or an eighth"}
 
 
 # Positions of the unit box in the world: edge and corner.
@@ -190,6 +201,22 @@ class Runner:
         return {"table": table, "setting": setting, "case": name, "verdict": verdict, "mean": mean, "standard_error": error,
                 "value": case["value"], "message": told}
 
+    def reciprocals(self, jobs: int) -> list:
+        """Rows of the lab, whose verdicts are put into the words of this page."""
+        done = subprocess.run([self.folder / "medialab", "stress", "--quantity", "reciprocal", "--no-seconds", "--quiet", "--format", "json", "--threads", str(jobs)],
+                              capture_output=True, check=False, text=True)
+        words = {"pass": "ok", "undecided": "noisy", "expected": "told", "skipped": "not tried", "fail": "wrong"}
+        rows = []
+        for r in json.loads(done.stdout)["rows"]:
+            # What is no finite number is null there.
+            mean, value = (math.inf if r[c] is None else r[c] for c in ("mean", "exact"))
+            verdict, reason = words[r["verdict"]], re.sub(r"; noticed \d+ times|; trials ended at .*", "", r["reason"])
+            if verdict == "ok" and r["unbiased"] == "not claimed":
+                verdict = "biased" if abs(mean - value) > 1e-9 * value else "ok"
+            rows.append({"table": "reciprocals", "setting": r["estimator"], "case": r["case"], "verdict": verdict, "mean": mean, "standard_error": math.nan,
+                         "value": value, "message": "" if verdict in ("ok", "biased", "noisy") else reason})
+        return rows
+
     def boundary(self, setting: str, defines: dict) -> dict:
         with tempfile.TemporaryDirectory() as scratch:
             status, said = self.render("boundary", defines, "", ["--frames", "0:40"], pathlib.Path(scratch) / "b-####.pfm")
@@ -250,7 +277,9 @@ def shown(row: dict, notes: list) -> str:
     text = row["verdict"]
     if text == "ok":
         return text
-    if text not in ("refused",) and row["table"] != "boundary":
+    if row["table"] == "reciprocals":
+        text += f" {float(row['mean']) / float(row['value']) - 1:.2g}" if text == "biased" else ""
+    elif text not in ("refused",) and row["table"] != "boundary":
         text += f" {float(row['mean']):.3g}"
     message = re.sub(r"^\d+ (density|boundary)", r"\1", row["message"])  # how many is of no interest here
     if message:
@@ -273,6 +302,8 @@ def docs_of(rows: list) -> str:
            "| biased | is not, and the method is listed as biased or consistent |",
            "| refused | there is none: an error says why |", "",
            "None is wrong in silence, takes longer than its limit or is no number. Numbers are means of images that are not ok; those in brackets are messages, below.", "",
+           "Estimators of reciprocals are tried on lines instead, by the same command; there *told* is what their traits (`medialab list reciprocals`) say beforehand,",
+           "*not tried* what would take more than 1e8 look-ups an estimate, and the number beside *biased* is the relative error of the mean.", "",
            "Why some cannot work: a majorant that is too low leaves estimators of any control unbiased, but their variance grows like",
            "exp(optical depth^2 / that of the majorant), so that a few samples say nothing, which is told; those that need a bounding one are cut. `regular` goes",
            "from voxel to voxel, and procedural densities and given or learned bounds have none. Photons are blurred by their kernel: `sppm` is consistent, and",
@@ -284,7 +315,7 @@ def docs_of(rows: list) -> str:
         settings, names = list(dict.fromkeys(r["setting"] for r in these)), list(dict.fromkeys(r["case"] for r in these))
         cells = {(r["setting"], r["case"]): shown(r, notes) for r in these}
         out += [f"## {title}", ""]
-        if table == "integrators":  # the many rows down, the few settings across
+        if table in ("integrators", "reciprocals"):  # the many rows down, the few settings across
             out += ["| case | " + " | ".join(settings) + " |", "| --- |" + " --- |" * len(settings)]
             out += [f"| {n} | " + " | ".join(cells.get((s, n), "not run") for s in settings) + " |" for n in names]
         else:
@@ -293,6 +324,7 @@ def docs_of(rows: list) -> str:
         out.append("")
     out += ["## The cases", "", "| case | what | value |", "| --- | --- | --- |"]
     out += [f"| {n} | {c['says']} | {c['value']:.6g} |" for n, c in every.items()]
+    out += [f"| {n} | {says} | 1 / F |" for n, says in RECIPROCAL_CASES.items()]
     out += ["| boundary 41 steps | a camera that goes through the face of a box of optical depth 1, exactly on it at step 20 | exp(-optical depth above it) |", "",
             "## Messages", ""]
     out += [f"{k}. {m}" for k, m in enumerate(notes, 1)]
@@ -318,6 +350,8 @@ def main() -> int:
                 if o.only in f"boundary/{integrator}, {medium}/41 steps":
                     waiting.append(pool.submit(runner.boundary, f"{integrator}, {medium}", {"integrator": integrator, "medium": medium} | level))
         rows = [w.result() for w in waiting]
+    if not o.only or "reciprocal" in o.only:
+        rows += [r for r in runner.reciprocals(o.jobs) if o.only in f"{r['table']}/{r['setting']}/{r['case']}"]
     known = {(r["table"], r["setting"], r["case"]): r["verdict"] for r in read_csv(o.check)} if o.check else {}
     bad = 0
     for r in rows:
@@ -331,7 +365,7 @@ def main() -> int:
         write_csv(o.csv, rows)
     if o.docs:
         o.docs.write_text(docs_of(read_csv(o.csv) if o.csv else rows))
-    print(f"{len(rows)} renders of {SCENES.relative_to(ROOT)}, {bad} not as they should be")
+    print(f"{len(rows)} renders of {SCENES.relative_to(ROOT)} and lines, {bad} not as they should be")
     return 1 if bad else 0
 
 
