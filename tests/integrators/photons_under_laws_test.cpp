@@ -145,7 +145,7 @@ TEST(PhotonsUnderLaws, OfAGlowingBallCarryWhatItRadiates) {
     DirectPhotons photons(*scene);
     RunningStats power;
     for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-      const PhotonMaps maps = photons.trace(seed, 2 * kPaths);
+      const PhotonMaps maps = photons.trace(seed, 4 * kPaths);
       double sum = 0;
       maps.onSurfaces.within({0, 0, 0}, 5, [&](const SurfacePhoton& p, float) { sum += double{p.power.g}; });
       power.add(sum / maps.paths);
