@@ -115,8 +115,8 @@ class HitFilter {
   virtual bool accepts(const RayHit& hit, bool shadowRay) const = 0;
 };
 
-/// Ray intersection over everything added, through Embree in robust mode. Built once, then immutable and
-/// thread-safe. Nothing added: no structure is built and every query misses at once.
+/// Ray intersection over everything added: few shapes one by one, more through Embree in robust mode. Built
+/// once, then immutable and thread-safe. Nothing added: no structure is built, every query misses at once.
 class Accelerator {
  public:
   Accelerator();
