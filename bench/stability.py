@@ -305,7 +305,8 @@ def docs_of(rows: list) -> str:
            "Estimators of reciprocals are tried on lines instead, by the same command; there *told* is what their traits (`medialab list reciprocals`) say beforehand,",
            "*not tried* what would take more than 1e8 look-ups an estimate, and the number beside *biased* is the relative error of the mean.", "",
            "Why some cannot work: a majorant that is too low leaves estimators of any control unbiased, but their variance grows like",
-           "exp(optical depth^2 / that of the majorant), so that a few samples say nothing, which is told; those that need a bounding one are cut. `regular` goes",
+           "exp(optical depth^2 / that of the majorant), so that a few samples say nothing, which is told; those that need a bounding one are cut. Weights of flights by",
+           "`debiased-ray-marching` have either sign: after many scatterings few paths bring all, and means of few samples are too low, which is told. `regular` goes",
            "from voxel to voxel, and procedural densities and given or learned bounds have none. Photons are blurred by their kernel: `sppm` is consistent, and",
            "what is thinner than the radius, or denser than its inverse, takes more iterations than these. Chains of `mlt` have so many scatterings and no more.", ""]
     for table, title in TABLES.items():

@@ -25,6 +25,8 @@ constexpr Rgb kNaN{std::numeric_limits<float>::quiet_NaN()};
 /// Optical depth of a bound above which it is refined: far above what is rendered every day, and some tenths
 /// of a millisecond of null collisions.
 constexpr double kRefinedDepth = 0x1p14;
+/// Optical depth of the diagonal from which products of weights of either sign are told to say little.
+constexpr double kManyScatterings = 50;
 /// Optical depth of unproven bounds across a medium above which less is tracked: some milliseconds of null
 /// collisions, mean free paths of 4e-6 of the medium.
 constexpr double kMostDepth = 0x1p18;
@@ -297,6 +299,17 @@ std::string FieldMedium::complaint() const {
          << ", as bounds that nobody has proven cost a null collision for each mean free path: it looks the "
             "same "
             "except where its density is below a thousandth of the largest, where more light passes";
+    text += more.str();
+  }
+  if (const double scatterings = densestScattering() * double{length(bounds().diagonal())};
+      traitsOf(flights_).mayBeNegative && scatterings > kManyScatterings) {
+    std::ostringstream more;
+    more << (text.empty() ? "" : "; ") << "paths may scatter often in it, as "
+         << static_cast<float>(scatterings)
+         << " mean free paths lie in its box, and weights of free flights by \"" << nameOf(flights_)
+         << "\" have either sign: few paths bring most of the image, so that it is mostly too dark, by more "
+            "than "
+            "its noise tells; other free flights (medialab list) have positive weights";
     text += more.str();
   }
   return text;

@@ -135,6 +135,22 @@ TEST(ConstructTextureMedium, ComplainsOfValuesThatAreNoDensity) {
             "texture \"n\" has negative values in the medium; they count as density 0");
 }
 
+TEST(ConstructGrid, ComplainsOfWeightsOfEitherSignWherePathsScatterOften) {
+  const auto complaint = [](const std::string& scale, const std::string& flights) {
+    const Attempt a = with(
+        "\"string type\" \"heterogeneous\" \"float density\" 1 \"rgb sigma_s\" [ 1 1 1 ] "
+        "\"rgb sigma_a\" [ 0 0 0 ] \"float scale\" " +
+        scale + " \"string freeflight\" \"" + flights + "\"");
+    EXPECT_TRUE(a.isSilent()) << a.messages();
+    return a.made->scene->media()[0]->complaint();
+  };
+  EXPECT_TRUE(
+      complaint("100", "debiased-ray-marching").starts_with("paths may scatter often in it, as 173.2"))
+      << complaint("100", "debiased-ray-marching");
+  EXPECT_EQ(complaint("2", "debiased-ray-marching"), "");
+  EXPECT_EQ(complaint("100", "weighted-delta"), "");
+}
+
 /// Writes numbers as a raw file, little-endian.
 template <class Word>
 void writeRaw(const std::filesystem::path& file, const std::vector<Word>& words) {
