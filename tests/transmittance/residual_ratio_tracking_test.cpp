@@ -124,6 +124,58 @@ TEST(ResidualRatioTracking, IsUnbiasedInEachChannel) {
   }
 }
 
+TEST(ResidualRatioTracking, RouletteKeepsTheMeanOfEveryChannelAndSavesLookups) {
+  // The lower bounds alone leave e^-1 of the first channel, so that walks end by them too.
+  const Channels<3> sigma{2, 0, .5};
+  for (const Shape& s : shapes()) {
+    TrackingCase c = trackingCase(s, 1, 1.5, 4, .7);
+    for (const double threshold : {.3, 1.}) {
+      for (const bool withoutClear : {false, true}) {
+        // A channel of no extinction weighs 1 for ever: no walk ends.
+        const Channels<3> sigmas = withoutClear ? Channels<3>{6, 3, 4.5} : sigma;
+        const ResidualRatioTracking roulette{.rouletteThreshold = threshold};
+        Rng a(kSeed), b(kSeed);
+        RunningStats values[3], lookups, whole;
+        for (int i = 0; i < 20000; ++i) {
+          const auto some = runEstimator(roulette, c.line, sigmas, a);
+          for (std::size_t k = 0; k < 3; ++k) values[k].add(some.value[k]);
+          lookups.add(static_cast<double>(some.tally.lookups));
+          whole.add(
+              static_cast<double>(runEstimator(ResidualRatioTracking(), c.line, sigmas, b).tally.lookups));
+        }
+        for (std::size_t k = 0; k < 3; ++k) expectMean(values[k], std::exp(-sigmas[k]), kSeed, c.name);
+        if (withoutClear && whole.mean() > .5) {
+          EXPECT_LT(lookups.mean(), .8 * whole.mean()) << c.name << ", " << threshold;
+        } else if (!withoutClear) {
+          EXPECT_EQ(lookups.mean(), whole.mean()) << c.name;  // the same numbers: nothing is drawn
+        }
+      }
+    }
+  }
+}
+
+TEST(ResidualRatioTracking, RouletteOfLowerBoundsAloneIsUnbiasedWithoutOneCollision) {
+  // A thousandth of the density is open: e^-4 is the lower bounds', and most walks end before the last cell.
+  const int cells = 40;
+  ProvenLine line{{[](double) { return 4.0; }, {}}};
+  for (int i = 1; i <= cells; ++i)
+    line.intervals.push_back({static_cast<double>(i) / cells, {4.004f, 3.996f}});
+  const ResidualRatioTracking roulette{.rouletteThreshold = .5};
+  Rng rng(kSeed);
+  RunningStats values;
+  int ended = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double value = runEstimator(roulette, line, Channels<1>{1}, rng).value[0];
+    ended += value == 0;
+    values.add(value);
+    ASSERT_LE(value, .501);
+  }
+  expectMean(values, std::exp(-4.), kSeed, "even");
+  // Alive with probability e^-4 / .5 or, between two questions, a little more.
+  EXPECT_GT(ended, 0.9 * 20000);
+  EXPECT_LT(ended, 0.97 * 20000);
+}
+
 TEST(ResidualTrackLength, TakesTwoValuesAndCountsDensitiesBelowTheirMinorant) {
   const TrackingCase c = trackingCase(shape("hole"), 1, 1.1);
   ProvenLine line = c.line;
