@@ -469,6 +469,16 @@ TEST_F(Pbrt, WritesStatisticsAsJson) {
   EXPECT_GT(render.at("peakMemoryBytes").get<std::size_t>(), 1u << 20);
 }
 
+TEST_F(Pbrt, TellsItsOwnMemoryAndNotThatOfWhoStartedIt) {
+  constexpr std::size_t kBallast = std::size_t{600} << 20;
+  const std::vector<char> ballast(kBallast, 1);
+  folder_.write("a.pbrt", kScene);
+  ASSERT_EQ(pbrt("--stats s.json a.pbrt").status, 0);
+  const auto json = nlohmann::json::parse(folder_.read("s.json"));
+  EXPECT_LT(json.at("renders").at(0).at("peakMemoryBytes").get<std::size_t>(), kBallast);
+  EXPECT_EQ(ballast[kBallast / 2], 1);
+}
+
 TEST_F(Pbrt, WritesEachCountUnderItsOwnName) {
   // A wall before the left half of the picture: every sample is a ray, every other meets the wall and asks
   // for the light.
