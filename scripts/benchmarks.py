@@ -3,7 +3,8 @@
 """Keeps the tables of docs/benchmarks.md and docs/convergence.md: nobody types a number there.
 
   benchmarks.py record FILE...   takes the results of a run into docs/benchmarks/: the JSON of layout_bench or estimator_bench
-                                 (--json FILE), summary.csv of pbrt-compare, of one scene or of several, the CSV of bench/ways.py. Rows that a run
+                                 (--json FILE), summary.csv of pbrt-compare, of one scene or of several, the CSV of bench/ways.py or bench/sizes.py. Rows that a
+                                 run
                                  did not measure stay
   benchmarks.py docs             writes the tables of the pages from docs/benchmarks/
   benchmarks.py check            status 1 if a page has other tables
@@ -16,14 +17,14 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGES = {"docs/benchmarks.md": ("layouts", "estimators", "renders", "ways"), "docs/convergence.md": ("comparison",)}
+PAGES = {"docs/benchmarks.md": ("layouts", "estimators", "renders", "ways", "sizes", "threads"), "docs/convergence.md": ("comparison",)}
 DATA = "docs/benchmarks"
 AXES = {"samples": "samples", "lookups": "lookups", "seconds": "cpu"}  # that variance times cost is told of; in summary.csv
 
 Rows = list[dict[str, str]]
 # Columns that tell the rows of a file apart.
 KEYS = {"layouts": ("grid", "layout"), "estimators": ("field", "estimator"), "renders": ("setting",), "comparison": ("scene", "setting"),
-        "ways": ("scene", "way")}
+        "ways": ("scene", "way"), "sizes": ("kind", "size")}
 
 
 def number(value: float | None, form: str) -> str:
@@ -79,8 +80,8 @@ def record(root: pathlib.Path, path: pathlib.Path) -> str:
     else:
         with path.open(newline="") as file:
             rows = list(csv.DictReader(file))
-        if "way" in rows[0]:
-            name, new = "ways", rows
+        if "way" in rows[0] or "kind" in rows[0]:
+            name, new = "ways" if "way" in rows[0] else "sizes", rows
         else:
             several = len({r["scene"] for r in rows}) > 1
             name, new = ("comparison", from_comparison(rows)) if several else ("renders", from_renders(rows))
@@ -152,12 +153,29 @@ def ways(rows: Rows) -> str:
     return table(["way", "scene", "seconds", "variance x seconds", "without the worst 0.1 %", "by the median pixel"], [line(r) for r in changed])
 
 
-MAKERS = {"layouts": layouts, "estimators": estimators, "renders": renders, "comparison": comparison, "ways": ways}
+def sizes(rows: Rows) -> str:
+    return table(["", "size", "µs of a sample", "seconds to the first pixel", "MB"],
+                 [[r["kind"], r["size"], *(f"{float(r[c]):{form}}" for c, form in (("us_per_sample", ".3g"), ("first_pixel_seconds", ".2f"), ("megabytes", ".0f")))]
+                  for r in rows if not r["kind"].startswith("threads-")])
+
+
+def threads(rows: Rows) -> str:
+    """How many times faster than one thread, by the clock on the wall."""
+    several = [r for r in rows if r["kind"].startswith("threads-")]
+    alone = {r["kind"]: float(r["elapsed_us_per_sample"]) for r in several if r["size"] == "1"}
+    return table(["scene", "threads", "times faster"],
+                 [[r["kind"].removeprefix("threads-"), r["size"], f"{alone[r['kind']] / float(r['elapsed_us_per_sample']):.2f}"] for r in several if r["size"] != "1"])
+
+
+# The tables whose rows are in the file of another one.
+DATA_OF = {"threads": "sizes"}
+MAKERS = {"layouts": layouts, "estimators": estimators, "renders": renders, "comparison": comparison, "ways": ways, "sizes": sizes,
+          "threads": threads}
 
 
 def page(root: pathlib.Path, name: str, text: str) -> str:
     """The page with its tables written anew, each between `<!-- table NAME -->` and `<!-- end -->`."""
-    made = {table_name: MAKERS[table_name](read(root, table_name)) for table_name in PAGES[name]}
+    made = {table_name: MAKERS[table_name](read(root, DATA_OF.get(table_name, table_name))) for table_name in PAGES[name]}
     for table_name in made:
         if (said := root / DATA / f"{table_name}.txt").is_file():
             made[table_name] = f"Measured by {said.read_text().strip()}.\n\n" + made[table_name]

@@ -57,6 +57,14 @@ class Benchmarks(unittest.TestCase):
         self.assertIn("| mine | fog | 0.50 | 0.40 | 0.60 | 1.00 |\n", page)
         self.assertNotIn("| before |", page)
 
+    def test_sizes_and_threads_are_rows_of_two_tables(self):
+        page = self.record("sizes.csv", "kind,size,us_per_sample,elapsed_us_per_sample,first_pixel_seconds,megabytes\n"
+                                        "lights,10,12.34,13,0.056,33.4\nthreads-fog,1,5,8,0.1,20\nthreads-fog,64,5,2,0.1,20\n")
+        self.assertIn("| lights | 10 | 12.3 | 0.06 | 33 |\n", page)
+        self.assertIn("| fog | 64 | 4.00 |\n", page)
+        self.assertNotIn("threads-fog", page)
+        self.assertNotIn("| fog | 1 |", page)
+
     def test_several_scenes_are_columns_and_bias_is_no_number(self):
         ends = "relative_cpu,relative_cpu_low,relative_cpu_high"
         path = self.root / "summary.csv"

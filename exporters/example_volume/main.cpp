@@ -5,15 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <string>
 
-// Writes plume.vdb, a small volume of our own making, and plume-scene.pbrt, a scene that shows it:
+// Writes plume.vdb, a volume of our own making, small unless a height in voxels (160) says other, and
+// plume-scene.pbrt, a scene that shows it:
 //
-//   example_volume FOLDER && cd FOLDER
+//   example_volume FOLDER [HEIGHT] && cd FOLDER
 //   vdb2pbrt plume.vdb --sigma-a 1 1 1 --sigma-s 25 25 25 && pbrt plume-scene.pbrt
 
 namespace {
@@ -48,6 +50,7 @@ double noise(double x, double y, double z) {
 double plume(double x, double y, double z) {
   const double sway = 0.1 * std::sin(5 * z), radius = 0.06 + 0.2 * z;
   const double r = std::hypot(x - sway * z, y + 0.7 * sway * z) / radius;
+  if (r > 1.1 + 1.6 * 0.46875) return 0;  // the most that the octaves below come to
   double turbulence = 0, amplitude = 0.5, frequency = 9;
   for (int octave = 0; octave < 4; ++octave, amplitude /= 2, frequency *= 2.1) {
     turbulence += amplitude * (noise(frequency * x, frequency * y, frequency * z - 3) - 0.5);
@@ -57,23 +60,24 @@ double plume(double x, double y, double z) {
   return std::clamp(4 * body, 0.0, 1.0) * ends;
 }
 
-openvdb::FloatGrid::Ptr makePlume() {
-  constexpr int kHeight = 160, kHalfWidth = 60;
+/// Of `height` + 1 voxels upward, and three quarters of that to each side; most are empty.
+openvdb::FloatGrid::Ptr makePlume(int height) {
+  const int halfWidth = height * 3 / 8;
   openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(0.0f);
   grid->setName("density");
   grid->setGridClass(openvdb::GRID_FOG_VOLUME);
   auto to = grid->getAccessor();
-  for (int i = -kHalfWidth; i <= kHalfWidth; ++i) {
-    for (int j = -kHalfWidth; j <= kHalfWidth; ++j) {
-      for (int k = 0; k <= kHeight; ++k) {
-        const double density = plume(static_cast<double>(i) / kHeight, static_cast<double>(j) / kHeight,
-                                     static_cast<double>(k) / kHeight);
+  for (int i = -halfWidth; i <= halfWidth; ++i) {
+    for (int j = -halfWidth; j <= halfWidth; ++j) {
+      for (int k = 0; k <= height; ++k) {
+        const double density = plume(static_cast<double>(i) / height, static_cast<double>(j) / height,
+                                     static_cast<double>(k) / height);
         if (density > 0) to.setValue(openvdb::Coord(i, j, k), static_cast<float>(density));
       }
     }
   }
   openvdb::tools::pruneTiles(grid->tree());
-  grid->setTransform(openvdb::math::Transform::createLinearTransform(2.0 / kHeight));  // 2 units high
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(2.0 / height));  // 2 units high
   return grid;
 }
 
@@ -93,9 +97,9 @@ Include "plume.pbrt"
 WorldEnd
 )";
 
-int run(const std::filesystem::path& folder) {
+int run(const std::filesystem::path& folder, int height) {
   openvdb::initialize();
-  openvdb::io::File((folder / "plume.vdb").string()).write({makePlume()});
+  openvdb::io::File((folder / "plume.vdb").string()).write({makePlume(height)});
   std::ofstream scene(folder / "plume-scene.pbrt");
   scene << kScene;
   scene.close();
@@ -106,14 +110,16 @@ int run(const std::filesystem::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2 || std::string(argv[1]).starts_with("-")) {
-    std::cerr << "usage: example_volume FOLDER\n"
-                 "Writes plume.vdb and plume-scene.pbrt; then, in that folder:\n"
+  const std::string first = argc > 1 ? argv[1] : "";
+  const int height = argc == 3 ? std::atoi(argv[2]) : 160;
+  if (argc < 2 || argc > 3 || first.starts_with("-") || height < 1) {
+    std::cerr << "usage: example_volume FOLDER [HEIGHT]\n"
+                 "Writes plume.vdb, 160 or HEIGHT voxels high, and plume-scene.pbrt; then, in that folder:\n"
                  "  vdb2pbrt plume.vdb --sigma-a 1 1 1 --sigma-s 25 25 25 && pbrt plume-scene.pbrt\n";
-    return argc == 2 && std::string(argv[1]) == "--help" ? 0 : 1;
+    return first == "--help" ? 0 : 1;
   }
   try {
-    return run(argv[1]);
+    return run(first, height);
   } catch (const std::exception& e) {
     std::cerr << "example_volume: error: " << e.what() << '\n';
     return 1;
