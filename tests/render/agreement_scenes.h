@@ -188,11 +188,10 @@ inline std::vector<AgreementScene> agreementScenes() {
 }
 
 inline std::string textOf(const AgreementScene& scene, const std::string& integrator, double light = 1,
-                          const std::string& parameters = "") {
+                          const std::string& parameters = "", int resolution = kAgreementResolution) {
   std::ostringstream os;
-  os << "Film \"image\" \"integer xresolution\" " << kAgreementResolution << " \"integer yresolution\" "
-     << kAgreementResolution << " \"float scale\" " << light
-     << " \"string filename\" \"unused.exr\"\nPixelFilter \"box\"\n"
+  os << "Film \"image\" \"integer xresolution\" " << resolution << " \"integer yresolution\" " << resolution
+     << " \"float scale\" " << light << " \"string filename\" \"unused.exr\"\nPixelFilter \"box\"\n"
      << "Sampler \"random\" \"integer pixelsamples\" " << scene.samples << "\nIntegrator \"" << integrator
      << "\" \"integer maxdepth\" " << scene.maxDepth << ' ' << parameters
      << "\nLookAt 0 -4 1.6  0 0 .9  0 0 1\n"

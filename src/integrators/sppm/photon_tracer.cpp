@@ -16,6 +16,10 @@
 namespace pbrtmedia {
 namespace {
 
+/// Relative to the power of their start, that of light paths below which roulette thins them out. At each
+/// loss (1) photons are all alike and few; far below, paths take long to end that bring little.
+constexpr float kRouletteWeight = 0.5f;
+
 /// How far along an endless ray there may be something of the media of a state.
 double reachOf(const MediumState& state, const Ray& ray) {
   double reach = 0;
@@ -67,7 +71,7 @@ bool PhotonTracer::leaveLight() {
   hider_ = scene.hiderOf(choice.light);
   const PrimitiveId target = scene.lightTarget(choice.light);
   if (target.isValid()) rayStart_ = Exclusions(target);
-  strength_ = largestChannel(power_);
+  startSize_ = largestChannel(power_);
   if (setup_.media) state_ = stateAtLight(light);
   return !power_.isBlack();
 }
@@ -87,7 +91,7 @@ bool PhotonTracer::leaveMedium(const MediumLight& light, float probability, Poin
   }
   const Rgb emission = light.emissionAt(ray_.o, setup_.time, state_, counters_);
   power_ = emission * static_cast<float>(4 * double{kPi} / pdf);
-  strength_ = largestChannel(power_);
+  startSize_ = largestChannel(power_);
   return !power_.isBlack() && power_.isFinite();
 }
 
@@ -162,8 +166,7 @@ bool PhotonTracer::scatterOnSurface(Photons& out) {
   if (storesHere() && bsdf.count(BsdfFlags::AllDiffuse) > 0)
     out.onSurfaces.push_back({{si.p, si.wo, power_, scatterings_}, absDot(si.wo, si.n)});
   if (!mayScatter()) return false;
-  samples_.startVertex(scatterings_);
-  const BsdfSample sample = bsdf.sample(si.wo, samples_.get2D());
+  const BsdfSample sample = bsdf.sample(si.wo, uniformSquare());
   if (!(sample.pdf > 0) || sample.f.isBlack()) return false;
   power_ *= sample.f * (absDot(sample.wi, bsdf.shadingNormal()) / sample.pdf);
   if (power_.isBlack()) return false;
@@ -184,8 +187,7 @@ bool PhotonTracer::scatterInMedium(Photons& out) {
     ++counters_.stuckPaths;
     return false;
   }
-  samples_.startVertex(scatterings_);
-  const PhaseFunction::Sample sample = medium_.phase->sample(-ray_.d, samples_.get2D());
+  const PhaseFunction::Sample sample = medium_.phase->sample(-ray_.d, uniformSquare());
   if (!(sample.value > 0)) return false;
   startSegment(medium_.at.p, sample.wi, medium_.at.near, {});
   from_ = medium_.at;
@@ -204,13 +206,16 @@ void PhotonTracer::startSegment(Point3f o, Vector3f d, const BoundaryPlane& plan
   ++scatterings_;
 }
 
+Point2f PhotonTracer::uniformSquare() {
+  const float x = rng_.uniform();
+  return {x, rng_.uniform()};
+}
+
 bool PhotonTracer::playRoulette() {
-  const float survival = largestChannel(power_) / strength_;
-  if (survival < 1) {
-    if (!(rng_.uniform() < survival)) return false;
-    power_ /= survival;
-  }
-  strength_ = largestChannel(power_);
+  const float survival = largestChannel(power_) / (kRouletteWeight * startSize_);
+  if (!(survival < 1)) return true;
+  if (!(rng_.uniform() < survival)) return false;
+  power_ /= survival;
   return true;
 }
 

@@ -7,7 +7,6 @@
 
 #include "base/pixel_stream.h"
 #include "integrators/path/path_event.h"
-#include "integrators/path/path_samples.h"
 #include "integrators/sppm/photon.h"
 #include "lighting/light_selector.h"
 #include "lights/light.h"
@@ -36,13 +35,16 @@ struct Photons {
 
 /// One light path from a light to its end, as `PathTracer` is one from the camera. Importance is scattered by
 /// Material::bsdf's adjoint, and flies by MediaStretch::sampleFlightOfLight, so that photons are what paths
-/// from where they are would find, under any law; at each scattering roulette keeps the largest channel of
-/// the power at most what it was. Boundaries without material cost no depth.
+/// from where they are would find, under any law. Boundaries without material cost no depth.
+///
+/// What has lost much of the power it started with is thinned out by roulette. Only the light takes
+/// dimensions of a sampler: well distributed directions of scattering took time and left the noise of a room
+/// as it was.
 class PhotonTracer {
  public:
-  /// `sampler`: started; gives the dimensions of the light and of the first scatterings, `rng` the rest.
+  /// `sampler`: started; gives the dimensions of the light, `rng` the rest.
   PhotonTracer(const PhotonSetup& setup, Sampler& sampler, Rng& rng, RenderCounters& counters)
-      : setup_(setup), sampler_(sampler), rng_(rng), samples_(sampler, rng), counters_(counters) {}
+      : setup_(setup), sampler_(sampler), rng_(rng), counters_(counters) {}
   /// Once.
   void trace(Photons& out);
 
@@ -64,13 +66,13 @@ class PhotonTracer {
   bool storesHere() const { return scatterings_ >= setup_.fewestScatterings; }
   bool mayScatter() const { return scatterings_ < setup_.mostScatterings; }
   bool playRoulette();
+  Point2f uniformSquare();
   void startSegment(Point3f o, Vector3f d, const BoundaryPlane& plane, const Exclusions& start);
   MediaWalk::Context walkContext() const { return {setup_.scene, setup_.media, counters_, counters_.rays}; }
 
   const PhotonSetup& setup_;
   Sampler& sampler_;
   Rng& rng_;
-  PathSamples samples_;  ///< as many good dimensions as camera paths take
   RenderCounters& counters_;
 
   Ray ray_;
@@ -82,7 +84,7 @@ class PhotonTracer {
   /// Of those of the state, the medium whose collision or emission the light on this stretch comes from.
   std::optional<std::size_t> source_;
   Rgb power_;
-  float strength_ = 0;  ///< largest channel of the power where the ray starts
+  float startSize_ = 0;  ///< largest channel of the power at the light
   int scatterings_ = 0;
   ScatteringsInPlace inPlace_;
   SurfaceVertex surface_;
