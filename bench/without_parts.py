@@ -9,7 +9,7 @@
 `run` builds a copy of the tracked files in build/without/tree once as it is and once for each part without it, and renders the part's scene by both
 in turn, on one thread, another seed each round. Both must give the same bits. The ratio is that of the processor time of the program as it is to
 that of the program without the part; median over the rounds with the interval of 95 % that order statistics give. "control" is the
-same program twice. --instructions also counts instructions by valgrind's cachegrind (4 samples of each pixel), which no load of the machine changes.
+same program twice. With names, lines that FILE.csv has of other parts stay. --instructions also counts instructions by valgrind's cachegrind (4 samples of each pixel), which no load of the machine changes.
 """
 import argparse
 import csv
@@ -151,10 +151,19 @@ def run(parts: list[Part], o: argparse.Namespace) -> int:
         build(tree, part.edits, program)
         rows.append(measure(part, program, whole, o.rounds, o.instructions))
         print(", ".join(rows[-1]), file=sys.stderr, flush=True)
+    if o.outfile and o.names and pathlib.Path(o.outfile).is_file():
+        with open(o.outfile, newline="") as file:
+            rows = with_others(rows, list(csv.reader(file))[1:])
     out = open(o.outfile, "w", newline="") if o.outfile else sys.stdout
     table = csv.writer(out, lineterminator="\n")
     table.writerows([COLUMNS, *rows])
     return 0
+
+
+def with_others(rows: list[list[str]], earlier: list[list[str]]) -> list[list[str]]:
+    """Rows of parts that were measured, and earlier ones of the others, in the order of the list; those of parts that are gone are left out."""
+    found = {row[0]: row for row in (*earlier, *rows)}
+    return [found[name] for name in (CONTROL, *(p.name for p in parse(PARTS.read_text()))) if name in found]
 
 
 def page(rows: list[dict[str, str]]) -> str:

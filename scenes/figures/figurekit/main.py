@@ -26,7 +26,7 @@ Makes figures of papers again: data, plots, and a verdict on what the paper clai
   ./figures NAME ...            these figures
   ./figures                     all of them, some half an hour; stop it whenever you like, the same command goes on
   ./figures --all --quick       all of them, smaller: some minutes
-  ./figures --docs              writes docs/figures.md from what a full run has made
+  ./figures --docs              writes docs/figures.md from what full runs have made; figures that were not made here stay as the page has them
 
 Results are in build/figures/NAME (build/figures-quick with --quick). What programs found is kept, and made again only when program, scene or options changed.
 The exit status is 0 when every figure was made and agrees with the numbers that are known (closed forms, independent simulations; within four standard errors).
@@ -160,7 +160,8 @@ def main(words: list[str] | None = None) -> int:
         if options.docs:
             if options.quick:
                 raise FigureError("the page is made from a full run, without --quick")
-            print(f"wrote docs/figures.md, {page.write_page(entries, out, ROOT / 'docs') / 1e6:.2f} MB of pictures")
+            size, stay = page.write_page(entries, out, ROOT / "docs")
+            print(f"wrote docs/figures.md, {size / 1e6:.2f} MB of pictures" + (f"; as they were: {', '.join(stay)}" if stay else ""))
         return code
     except FigureError as error:
         print(f"figures: error: {error}", file=sys.stderr)

@@ -2,6 +2,7 @@
 """docs/figures.md: all figures with their pictures and verdicts, and what is not there yet."""
 import json
 import re
+from dataclasses import dataclass
 from pathlib import Path
 
 from . import plotting, verdicts
@@ -13,6 +14,8 @@ MOST_BYTES = 2_000_000
 OUTCOMES = (verdicts.REPRODUCED, verdicts.NOT_REPRODUCED, verdicts.UNTESTED)
 ROW = re.compile(r"\| \[`(?P<name>[^`]+)`\]\(#[^)]+\) \| .* \| (?P<counts>[^|]+) \|")
 """Of the summary."""
+SECTION = re.compile(r"(?ms)^### (?P<name>\S+)$.*?^!\[(?P=name): [^\n]*\.png\)$")
+"""Of a figure: it ends with the second picture."""
 HEAD = """\
 # Figures of papers
 
@@ -37,14 +40,40 @@ def result_of(entry: Entry, out: Path) -> dict:
     return json.loads(path.read_text())
 
 
-def summary(entries: list[Entry], results: dict[str, dict]) -> list[str]:
+@dataclass(frozen=True)
+class Part:
+    """Of the page: what a figure has there."""
+    counts: dict[str, int]  # verdicts of each outcome
+    lines: list[str]
+
+    @staticmethod
+    def made(entry: Entry, result: dict) -> "Part":
+        outcomes = [v["outcome"] for v in result["verdicts"]]
+        return Part({o: outcomes.count(o) for o in OUTCOMES if o in outcomes}, section(entry, result))
+
+
+def counts_of(page: str) -> dict[str, dict[str, int]]:
+    """Verdicts of each outcome by figure, from the summary."""
+    found = {}
+    for line in page.splitlines():
+        if row := ROW.fullmatch(line):
+            found[row["name"]] = {outcome: int(count) for count, outcome in (part.split(" ", 1) for part in row["counts"].split(", "))}
+    return found
+
+
+def parts_of(page: str) -> dict[str, Part]:
+    """What an earlier page has, by figure."""
+    counts = counts_of(page)
+    return {found["name"]: Part(counts[found["name"]], [*found[0].splitlines(), ""]) for found in SECTION.finditer(page) if found["name"] in counts}
+
+
+def summary(entries: list[Entry], parts: dict[str, Part]) -> list[str]:
     counts = dict.fromkeys(OUTCOMES, 0)
     lines = ["| figure | | verdicts |", "| --- | --- | --- |"]
     for entry in entries:
-        outcomes = [v["outcome"] for v in results[entry.name]["verdicts"]]
-        for outcome in outcomes:
-            counts[outcome] += 1
-        told = ", ".join(f"{outcomes.count(o)} {o}" for o in counts if o in outcomes)
+        for outcome, count in parts[entry.name].counts.items():
+            counts[outcome] += count
+        told = ", ".join(f"{n} {o}" for o, n in parts[entry.name].counts.items())
         lines.append(f"| [`{entry.name}`](#{entry.name}) | {entry.figure.title} | {told} |")
     total = ", ".join(f"{n} {o}" for o, n in counts.items())
     return [f"{len(entries)} figures, {sum(counts.values())} claims: {total}.", "", *lines]
@@ -52,10 +81,7 @@ def summary(entries: list[Entry], results: dict[str, dict]) -> list[str]:
 
 def verdict_lines(page: str, entries: list[Entry]) -> list[str]:
     """What the page says came of each figure, a line each, then the sums of each paper and of all. Throws FigureError for a figure that it does not have."""
-    told: dict[str, dict[str, int]] = {}
-    for line in page.splitlines():
-        if row := ROW.fullmatch(line):
-            told[row["name"]] = {outcome: int(count) for count, outcome in (part.split(" ", 1) for part in row["counts"].split(", "))}
+    told = counts_of(page)
     lines, sums = [], {paper: dict.fromkeys(OUTCOMES, 0) for paper in (*PAPERS, "all")}
     for entry in entries:
         if entry.name not in told:
@@ -79,32 +105,34 @@ def section(entry: Entry, result: dict) -> list[str]:
             *verdicts, *compared, "", f"![{name}](figures/{name}.png)", f"![{name}: error against run time](figures/{name}-time.png)", ""]
 
 
-def page_text(entries: list[Entry], results: dict[str, dict]) -> str:
-    lines = [HEAD, *summary(entries, results), ""]
+def page_text(entries: list[Entry], parts: dict[str, Part]) -> str:
+    lines = [HEAD, *summary(entries, parts), ""]
     for paper, reference in PAPERS.items():
         lines += [f"## {reference}", ""]
         for entry in entries:
             if entry.paper == paper:
-                lines += section(entry, results[entry.name])
+                lines += parts[entry.name].lines
         missing = [f"- `{name}`, {title_of(name).lower()}: not there yet: {why}" for name, why in NOT_THERE.items() if paper_of(name) == paper]
         lines += [*missing, ""] if missing else []
     return "\n".join(lines).rstrip() + "\n"
 
 
-def write_page(entries: list[Entry], out: Path, docs: Path) -> int:
-    """Writes the page and its pictures; how many bytes these are."""
-    results = {e.name: result_of(e, out) for e in entries}
-    folder = docs / "figures"
+def write_page(entries: list[Entry], out: Path, docs: Path) -> tuple[int, list[str]]:
+    """Writes the page and its pictures; how many bytes these are, and which figures stay as an earlier page has them, as `out` does not."""
+    page, folder = docs / "figures.md", docs / "figures"
     folder.mkdir(exist_ok=True)
+    parts = parts_of(page.read_text()) if page.is_file() else {}
+    stay = [e.name for e in entries if e.name in parts and not (out / e.name / "result.json").is_file()]
+    parts |= {e.name: Part.made(e, result_of(e, out)) for e in entries if e.name not in stay}
+    pictures = {f"{e.name}{suffix}.png": e.name for e in entries for suffix in ("", "-time")}
     for old in folder.glob("*.png"):
-        old.unlink()
-    total = 0
-    for entry in entries:
-        for suffix in ("", "-time"):
-            data = plotting.shrink(out / entry.name / f"{entry.name}{suffix}.png")
-            (folder / f"{entry.name}{suffix}.png").write_bytes(data)
-            total += len(data)
+        if pictures.get(old.name) not in stay:
+            old.unlink()
+    for file, name in pictures.items():
+        if name not in stay:
+            (folder / file).write_bytes(plotting.shrink(out / name / file))
+    total = sum((folder / file).stat().st_size for file in pictures)
     if total > MOST_BYTES:
         raise FigureError(f"the pictures have {total} bytes, more than {MOST_BYTES}")
-    (docs / "figures.md").write_text(page_text(entries, results))
-    return total
+    page.write_text(page_text(entries, parts))
+    return total, stay
