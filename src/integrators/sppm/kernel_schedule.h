@@ -23,9 +23,10 @@ enum class Debias : std::uint8_t {
 /// doi:10.1145/3528223.3530160, section 5.3 and appendix C; Knaus & Zwicker 2011,
 /// doi:10.1145/1966394.1966404.
 ///
-/// Unbiased whatever alpha, c and limit of photons. Expected photons are finite for c > 1 (the paper's
-/// 1.001), the variance for c < (2 alpha - 1) / alpha (the 0.499 of its code, for alpha = 2/3): never both,
-/// and the limit of photons makes the first of the second.
+/// Unbiased whatever alpha, c and limit of photons, as levels end. Without that end the mean size of a
+/// correction over its probability is finite for c < 1 only: its terms go as n^(-1 + (c - 1) alpha / 2).
+/// Expected photons are finite for c > 1 (the paper's 1.001), the variance for c < (2 alpha - 1) / alpha (the
+/// 0.499 of its code, for alpha = 2/3): never both, and the limit of photons makes the first of the second.
 class KernelSchedule {
  public:
   static constexpr double kAlpha = 2.0 / 3, kC = 1.001;
