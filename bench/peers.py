@@ -84,9 +84,15 @@ def measure(programs: list[Program], name: str, options: argparse.Namespace) -> 
     found = {n: {"seconds": statistics.median(r["seconds"] for r in rows), "megabytes": max(r["megabytes"] for r in rows),
                  **{key: statistics.fmean(r[key] for r in rows) for key in ("mean", "error", "usual_error", "median_error")}} for n, rows in rounds.items()}
     base = found[OURS]
+
+    def worth(row: dict[str, float], key: str) -> str:
+        """Nothing where this renderer has no error: most pixels of a plain sky."""
+        whole = base[key] * base["seconds"]
+        return f"{row[key] * row['seconds'] / whole:.3f}" if whole > 0 else ""
+
     return [{"scene": name, "program": n, "seconds": f"{r['seconds'] / base['seconds']:.3f}", "megabytes": f"{r['megabytes']:.0f}",
              "mean": f"{r['mean'] / base['mean']:.4f}",
-             **{key: f"{r[key] * r['seconds'] / (base[key] * base['seconds']):.3f}" for key in ("error", "usual_error", "median_error")}} for n, r in found.items()]
+             **{key: worth(r, key) for key in ("error", "usual_error", "median_error")}} for n, r in found.items()]
 
 
 def table(rows: list[dict[str, str]]) -> str:

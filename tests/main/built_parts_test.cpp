@@ -135,7 +135,7 @@ TEST_F(Built, TablesOfScatteringBelowSurfaces) {
 TEST_F(Built, PhotonMapsBySppm) {
   const std::string floor =
       "Material \"matte\"\nTranslate 0 -1 0\nRotate 90 1 0 0\nShape \"disk\" \"float radius\" 5\n";
-  EXPECT_EQ(by({.integrator = "\"sppm\" \"integer iterations\" 3 \"integer photonsperiteration\" 100",
+  EXPECT_EQ(by({.integrator = "\"sppm\" \"integer iterations\" 3 \"integer photonsperiteration\" 1000",
                 .world = Words{}.world + floor}),
             (Parts{{"photonMaps", 3}, {"rayTrees", 1}}));
 }
