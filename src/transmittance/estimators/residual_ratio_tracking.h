@@ -96,8 +96,8 @@ struct ResidualRatioTracking {
   }
 
  private:
-  static constexpr double kRouletteDepth =
-      0.5;  ///< of minorants, after which one asks between collisions too
+  /// Optical depth of minorants after which one asks between collisions too.
+  static constexpr double kRouletteDepth = 0.5;
 
   template <std::size_t N>
   bool survivesRoulette(ChannelProducts<N>& weight, const Channels<N>& sigmaT, double minorant,
