@@ -84,6 +84,8 @@ def include_problems(path: pathlib.Path, room: str, plan: Plan) -> list[str]:
                 found.append(f"{path}:{number}: <{name}> belongs to {', '.join(sorted(rooms))}")
         if bracket == "<":
             continue
+        if name.endswith(".cpp"):
+            found.append(f"{path}:{number}: \"{name}\" is a source, which its list compiles")
         target = name.split("/")[0]
         if target not in plan.level:
             found.append(f"{path}:{number}: \"{name}\" is not rooted at src/")

@@ -68,6 +68,9 @@ class CheckHouse(unittest.TestCase):
     def test_keeps_embree_behind_its_room(self):
         self.expect_one("belongs to", {"src/base/a.cpp": LICENCE + "#include <embree3/rtcore.h>\n"})
 
+    def test_rejects_an_included_source(self):
+        self.expect_one("is a source", {"src/base/a.cpp": LICENCE + '#include "base/b.cpp"\n'})
+
     def test_wants_licence_and_guard(self):
         self.assertEqual(len(self.check(files={"src/film/f.h": "int x;\n"})), 2)
 

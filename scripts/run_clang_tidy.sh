@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-2-Clause
-# run_clang_tidy.sh <build folder>: clang-tidy over all tracked sources of src/. A file whose preprocessed text,
-# checks and verdict are known to be clean is not looked at again.
+# run_clang_tidy.sh <build folder>: clang-tidy over all sources of src/, as the preset lint builds them: several at a time,
+# as most of the time goes to the headers that they share. Sources whose preprocessed text, checks and verdict are known to
+# be clean are not looked at again.
 set -euo pipefail
 build=$1
 cache=${PBRT_MEDIA_TIDY_CACHE:-$HOME/.cache/pbrt-media-tidy}
@@ -9,37 +10,42 @@ mkdir -p "$cache"
 export build cache
 
 tidy_one() {
-  local file=$1 key command
-  command=$(python3 - "$build/compile_commands.json" "$PWD/$file" <<'PY'
-import json, shlex, sys
-for entry in json.load(open(sys.argv[1])):
-    if entry["file"] == sys.argv[2]:
-        words = shlex.split(entry["command"])
-        if words[0].endswith("ccache"):
-            words = words[1:]
-        out, take = [], False
-        for word in words:
-            if take:
-                out += ["-isystem", word]
-            take = word == "-isystem"
-            if word.startswith(("-I", "-D", "-std")):
-                out.append(word)
-        print(shlex.join(out))
-        break
-PY
-  )
-  [ -n "$command" ] || return 0
+  local file=$1 words=$2 key log
   # shellcheck disable=SC2086
-  key=$( (cat .clang-tidy && eval "g++ -E -P $command $file") 2>/dev/null | sha256sum | cut -d' ' -f1)
+  key=$( (cat .clang-tidy && eval "g++ -E -P $words '$file'") 2>/dev/null | sha256sum | cut -d' ' -f1)
   [ -f "$cache/$key" ] && return 0
-  if clang-tidy-14 --quiet -p "$build" "$file" >"$build/tidy.$$.log" 2>/dev/null; then
+  log=$build/tidy.$$.log
+  if clang-tidy-14 --quiet --checks=-bugprone-suspicious-include -p "$build" "$file" >"$log" 2>&1; then
     : >"$cache/$key"
-    rm -f "$build/tidy.$$.log"
+    rm -f "$log"
   else
-    cat "$build/tidy.$$.log"
-    rm -f "$build/tidy.$$.log"
+    grep -v 'warnings\? generated\.$\|^Suppressed\|^Use -header-filter' "$log" || true
+    rm -f "$log"
     return 1
   fi
 }
 export -f tidy_one
-git ls-files -z 'src/*.cpp' | xargs -0 -n 1 -P "$(nproc)" bash -c 'tidy_one "$1"' _
+
+# A source, and the words of its command that decide what its text is; the longest first.
+sources() {
+  python3 - "$build/compile_commands.json" "$PWD" <<'PY'
+import json, os, shlex, sys
+root = sys.argv[2]
+found = []
+for entry in json.load(open(sys.argv[1])):
+    file = os.path.relpath(entry["file"], root)
+    if not file.startswith("src/") and "/src/" not in file:
+        continue
+    out, take = [], False
+    for word in shlex.split(entry["command"]):
+        if take:
+            out += ["-isystem", word]
+        take = word == "-isystem"
+        if word.startswith(("-I", "-D", "-std")):
+            out.append(word)
+    found.append((os.path.getsize(entry["file"]), file, shlex.join(out)))
+for _, file, words in sorted(found, reverse=True):
+    print(file, words, sep="\0", end="\0")
+PY
+}
+sources | xargs -0 -n 2 -P "$(nproc)" bash -c 'tidy_one "$1" "$2"' _

@@ -15,7 +15,7 @@ void put(std::string& out, T number) {
   out.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr);
 }
 
-std::string shown(VoxelIndex v) {
+std::string bare(VoxelIndex v) {
   return std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z);
 }
 
@@ -34,7 +34,7 @@ void putFacts(std::string& out, const VdbDensity& density) {
   out += "\n# Grid \"" + inComment(density.name()) + "\": " + std::to_string(density.activeVoxels()) +
          " active voxels";
   if (density.activeVoxels() > 0) {
-    out += " in [" + shown(density.activeMin()) + "] .. [" + shown(density.activeMax()) + "]";
+    out += " in [" + bare(density.activeMin()) + "] .. [" + bare(density.activeMax()) + "]";
     const Bounds3d inIndex{Vec3d(density.activeMin()), Vec3d(density.activeMax())};
     Bounds3d world;
     for (int i = 0; i < 8; ++i) world.expand(density.worldFromIndex().point(inIndex.corner(i)));
@@ -210,7 +210,7 @@ std::string denseInclude(std::span<const IncludeGrid> grids, const IncludeEmissi
     const VoxelIndex n = hi - lo + VoxelIndex(1, 1, 1);
     if (static_cast<double>(n.x) * static_cast<double>(n.y) * static_cast<double>(n.z) >
         static_cast<double>(kMaxDenseSamples)) {
-      throw std::runtime_error("grid \"" + density.name() + "\" has " + shown(n) +
+      throw std::runtime_error("grid \"" + density.name() + "\" has " + bare(n) +
                                " samples when dense, more than " + std::to_string(kMaxDenseSamples) +
                                " in all; write .nvdb instead");
     }

@@ -5,7 +5,7 @@ namespace pbrtmedia {
 namespace {
 
 /// More are led through a tree: planes that a ray is told about, triangles, and records.
-constexpr std::size_t kMostPlanes = 16, kMostTriangles = 64, kMostItems = 6;
+constexpr std::size_t kMostPlanes = 16, kMostTrianglesEach = 64, kMostItems = 6;
 /// Of the coordinates: corners so near to a plane are in it. Rounding of corners that were meant to be.
 constexpr double kInPlane = 0x1p-21;
 /// Of the coordinates: rounding of what is computed from exact ones.
@@ -134,7 +134,8 @@ std::unique_ptr<const FewShapes> FewShapes::of(std::span<const std::unique_ptr<G
     const bool isEmpty = record->user ? record->user->primitiveCount() == 0 : !record->isTriangles();
     if (record->object || (record->user && record->user->primitiveCount() > 1)) return nullptr;
     if (isEmpty) continue;
-    if (record->triangles.indices.size() > kMostTriangles || few->items_.size() == kMostItems) return nullptr;
+    if (record->triangles.indices.size() > kMostTrianglesEach || few->items_.size() == kMostItems)
+      return nullptr;
     few->items_.emplace_back(*record);
     planes += few->items_.back().cost();
     if (planes > kMostPlanes) return nullptr;

@@ -11,6 +11,7 @@ namespace pbrtmedia {
 
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 inline constexpr float kPi = std::numbers::pi_v<float>;
+inline constexpr double kTwoPi = 2 * std::numbers::pi;
 inline constexpr float kInvPi = std::numbers::inv_pi_v<float>;
 inline constexpr float kInv2Pi = 0.5f * std::numbers::inv_pi_v<float>;
 inline constexpr float kInv4Pi = 0.25f * std::numbers::inv_pi_v<float>;

@@ -28,7 +28,7 @@ using Plan = Textures::Plan;
 using ReadTexture = Plan (*)(Texturable&, const TextureDescription&);
 
 constexpr std::string_view kGreyInstead = "a grey picture (0.5) takes its place, as in PBRT-v3";
-constexpr int kMaxNesting = 256;                  // textures within textures; real scenes have a handful
+constexpr int kMaxTextureNesting = 256;           // textures within textures; real scenes have a handful
 constexpr std::size_t kMaxEvaluations = 1 << 16;  // a look-up of some milliseconds
 constexpr int kMaxOctaves = 64;  // beyond, 1.99^octaves leaves every footprint and most float ranges
 
@@ -304,9 +304,9 @@ template <class T, class Make>
 std::unique_ptr<Texture<T>> Textures::build(std::uint32_t texture, const Make& make) {
   const TextureDescription& d = scene_.textures[texture];
   const std::string context = "texture \"" + d.name + "\"";
-  if (nesting_ >= kMaxNesting) {
-    throw SceneError(d.location,
-                     context + ": is nested more than " + std::to_string(kMaxNesting) + " textures deep");
+  if (nesting_ >= kMaxTextureNesting) {
+    throw SceneError(d.location, context + ": is nested more than " + std::to_string(kMaxTextureNesting) +
+                                     " textures deep");
   }
   const std::size_t outer = std::exchange(evaluationsOfInputs_, 1);
   ++nesting_;

@@ -19,7 +19,7 @@ constexpr std::uint64_t kCountless = std::uint64_t{1} << 60;  ///< counts satura
 /// Descriptions of so many strands or more take memory that is worth giving back, over a kilobyte each.
 constexpr std::size_t kManyStrands = 100000;
 
-constexpr std::uint32_t kMaxDepth = 1000;  // objects within objects
+constexpr std::uint32_t kMaxObjectDepth = 1000;  // objects within objects
 
 std::string contextOf(const ShapeDescription& shape) { return "Shape \"" + shape.type + "\""; }
 
@@ -169,10 +169,10 @@ void WorldBuilder::markUsedObjects() {
 void WorldBuilder::limitPlacements() {
   for (const InstanceDescription& instance : scene_.instances) {
     const ObjectDescription& object = scene_.objects[instance.object];
-    if (instance.parent != kNone || object.depth <= kMaxDepth) continue;
+    if (instance.parent != kNone || object.depth <= kMaxObjectDepth) continue;
     diagnostics_.error(instance.location, "ObjectInstance: \"" + object.name + "\" nests objects " +
                                               std::to_string(object.depth) + " deep, expected at most " +
-                                              std::to_string(kMaxDepth));
+                                              std::to_string(kMaxObjectDepth));
     return;
   }
   const std::uint64_t most = kFreePlacements + kPlacementsPerInstance * scene_.instances.size();

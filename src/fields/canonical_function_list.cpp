@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/hash.h"
+#include "base/math.h"
 #include "fields/canonical_function.h"
 
 // The list behind canonicalFunctionNames(): one builder for each function.
@@ -15,7 +16,6 @@ namespace {
 
 using Stretch = CanonicalFunction::Stretch;
 using Wave = CanonicalFunction::Wave;
-constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kQuarterTurn = std::numbers::pi / 2;
 
 /// The same shape with mean 1 over its domain.

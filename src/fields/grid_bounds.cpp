@@ -13,17 +13,6 @@ namespace {
 /// most 3 ulp of the largest sample, stay below 9 * 2^-24; this is 16 * 2^-24.
 constexpr float kLookupRounding = 0x1p-20f;
 
-SuperVoxel withRoundingSlack(float lower, float upper, double mean) {
-  // Equal samples are interpolated exactly.
-  if (lower == upper) return {upper, lower, upper};
-  constexpr float kLargest = std::numeric_limits<float>::max();
-  // The mean of samples that are not all 0 is positive, even where float cannot hold it.
-  const float positive = std::max(std::numeric_limits<float>::denorm_min(), lower);
-  return {std::min(std::nextafter(upper * (1 + kLookupRounding), kLargest), kLargest),
-          std::nextafter(lower * (1 - kLookupRounding), 0.0f),
-          std::clamp(static_cast<float>(mean), positive, upper)};
-}
-
 /// One axis of the mean: how much of each cell's part inside the box each of its samples stands for. The
 /// integral of a trilinear interpolant is a sum of samples times such weights, one factor per axis.
 class AxisWeights {
@@ -65,6 +54,17 @@ class AxisWeights {
 };
 
 }  // namespace
+
+SuperVoxel withRoundingSlack(float lower, float upper, double mean) {
+  // Equal samples are interpolated exactly.
+  if (lower == upper) return {upper, lower, upper};
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  // The mean of samples that are not all 0 is positive, even where float cannot hold it.
+  const float positive = std::max(std::numeric_limits<float>::denorm_min(), lower);
+  return {std::min(std::nextafter(upper * (1 + kLookupRounding), kLargest), kLargest),
+          std::nextafter(lower * (1 - kLookupRounding), 0.0f),
+          std::clamp(static_cast<float>(mean), positive, upper)};
+}
 
 SuperVoxels gridBounds(const GridSamples& samples, int nx, int ny, int nz, Vec3<std::int64_t> size) {
   // n + 1 gaps between the n + 2 samples of an axis, apron included.

@@ -6,6 +6,10 @@
 
 namespace pbrtmedia {
 
+/// A cell whose samples lie in [lower, upper] and have this mean: bounds with slack for the rounding of a
+/// look-up, none where all samples are equal, as these are interpolated exactly.
+SuperVoxel withRoundingSlack(float lower, float upper, double mean);
+
 /// Bounds and mean of the interpolated density over cells of whole lattice gaps (`size` of them per axis),
 /// from lattice plane 0 on. `nx`, ...: samples per axis without the apron; the field's box is [1/2, n + 1/2].
 ///

@@ -2,38 +2,23 @@
 #include "fields/nano_vdb_field.h"
 
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "base/diagnostics.h"
+#include "fields/grid_bounds.h"
 
 namespace pbrtmedia {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuseField(const std::string& what) {
   throw SceneError(SourceLocation{}, "nanovdb field: " + what);
-}
-
-/// Relative slack of bounds for the rounding of a look-up: three nested float interpolations, each off by at
-/// most 3 ulp of the largest sample, stay below 9 * 2^-24; this is 16 * 2^-24.
-constexpr float kLookupRounding = 0x1p-20f;
-
-SuperVoxel boundOf(const BrickTree::Summary& samples) {
-  auto mean = static_cast<float>(samples.mean);
-  // The mean of samples that are not all 0 is positive, even where float cannot hold it.
-  if (samples.upper > 0) mean = std::max(mean, std::numeric_limits<float>::denorm_min());
-  // Equal samples are interpolated exactly.
-  if (samples.lower == samples.upper) return {samples.upper, samples.lower, mean};
-  constexpr float kLargest = std::numeric_limits<float>::max();
-  return {std::min(std::nextafter(samples.upper * (1 + kLookupRounding), kLargest), kLargest),
-          std::nextafter(samples.lower * (1 - kLookupRounding), 0.0f), mean};
 }
 
 NanoVdbGrid load(const NanoVdbField::Params& params) {
   if (!std::isfinite(params.map.scale) || params.map.scale < 0) {
-    refuse("the density scale must be finite and >= 0; found " + std::to_string(params.map.scale));
+    refuseField("the density scale must be finite and >= 0; found " + std::to_string(params.map.scale));
   }
-  if (!std::isfinite(params.map.offset)) refuse("the density offset must be finite");
+  if (!std::isfinite(params.map.offset)) refuseField("the density offset must be finite");
   const NanoVdbFile file(params.file);
   const std::vector<GridCandidate> candidates = file.candidates();
   return readNanoVdbGrid(file, chooseGrid(candidates, params.grid), params.map);
@@ -43,7 +28,7 @@ NanoVdbGrid load(const NanoVdbField::Params& params) {
 
 NanoVdbField::NanoVdbField(const Params& params, const Transform& worldFromMedium) {
   NanoVdbGrid grid = load(params);
-  if (worldFromMedium.isSingular()) refuse("the transform to world space has no inverse");
+  if (worldFromMedium.isSingular()) refuseField("the transform to world space has no inverse");
   name_ = grid.name;
   type_ = grid.type;
   isEmpty_ = !grid.hasActive;
@@ -102,8 +87,8 @@ SuperVoxelLattice NanoVdbField::latticeOf(const Vec3<std::int64_t>& voxelsPerCel
 
 SuperVoxels NanoVdbField::superVoxels(int power) const {
   if (power < 0 || power > kMaxSuperVoxelPower) {
-    refuse("a super-voxel spans 2^p voxels, p from 0 to " + std::to_string(kMaxSuperVoxelPower) +
-           "; found p = " + std::to_string(power));
+    refuseField("a super-voxel spans 2^p voxels, p from 0 to " + std::to_string(kMaxSuperVoxelPower) +
+                "; found p = " + std::to_string(power));
   }
   const std::int64_t size = std::int64_t{1} << power;
   return superVoxels(latticeOf({size, size, size}));
@@ -125,7 +110,8 @@ SuperVoxels NanoVdbField::superVoxels(const SuperVoxelLattice& lattice) const {
       lo[a] = static_cast<std::uint64_t>(first + shift_[a]);
       hi[a] = static_cast<std::uint64_t>(last + shift_[a]);
     }
-    return boundOf(tree_.summary(lo, hi));
+    const BrickTree::Summary samples = tree_.summary(lo, hi);
+    return withRoundingSlack(samples.lower, samples.upper, samples.mean);
   };
   return SuperVoxels(lattice, boundOfCell);
 }

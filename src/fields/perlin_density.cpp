@@ -12,7 +12,7 @@ namespace pbrtmedia {
 namespace {
 
 /// Rounding of sums of octaves, far above their error and far below any density that matters.
-constexpr double kRounding = 1e-9;
+constexpr double kNoiseRounding = 1e-9;
 
 void require(bool holds, const char* name, const char* expected, double found) {
   if (holds) return;
@@ -60,7 +60,7 @@ std::optional<Interval> PerlinDensity::range(const Bounds3d& box) const {
     const Interval own = octave.noise.range({box.min * octave.frequency, box.max * octave.frequency});
     n = n + own * octave.weight;
   }
-  return clamped({densityOf(n.lo - kRounding), densityOf(n.hi + kRounding)}, 0, 1);
+  return clamped({densityOf(n.lo - kNoiseRounding), densityOf(n.hi + kNoiseRounding)}, 0, 1);
 }
 
 std::string PerlinDensity::describe() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "image/channels.h"
 
+#include <stdexcept>
+
 namespace pbrtmedia {
 
 Image withChannels(const Image& image, const std::vector<std::string>& names,
@@ -18,6 +20,10 @@ Image withChannels(const Image& image, const std::vector<std::string>& names,
     }
   }
   return out;
+}
+
+void requireColor(const Image& image) {
+  if (!image.hasRgb()) throw std::invalid_argument("the image has no channels R, G, B or Y");
 }
 
 bool isColour(std::string_view channel) {

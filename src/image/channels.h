@@ -13,6 +13,9 @@ namespace pbrtmedia {
 Image withChannels(const Image& image, const std::vector<std::string>& names,
                    const std::vector<std::string>& room = {});
 
+/// Throws std::invalid_argument where pixels have no colour.
+void requireColor(const Image& image);
+
 /// Whether a channel is a colour or a coverage, to the eye: R, G, B, Y, A, or R, G, B, A of a layer
 /// ("albedo.R"). Half floats suffice for these. Others are data, such as distances and counts; so is a
 /// variance, which may be far below what a half float can hold.

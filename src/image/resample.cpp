@@ -148,8 +148,8 @@ Image repeatPixels(const Image& image, int count) {
   if (count < 1) throw std::invalid_argument("pixels can be repeated once or more often");
   const std::int64_t width = std::int64_t{image.width()} * count,
                      height = std::int64_t{image.height()} * count;
-  constexpr std::int64_t kMaxSide = std::int64_t{1} << 20;
-  if (width > kMaxSide || height > kMaxSide) {
+  constexpr std::int64_t kLargestSide = std::int64_t{1} << 20;
+  if (width > kLargestSide || height > kLargestSide) {
     throw std::invalid_argument("the repeated image would have a side above 1048576 pixels");
   }
   Image out = emptyLike(image, static_cast<int>(width), static_cast<int>(height));

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 #include <vector>
+
+#include "image/channels.h"
 
 namespace pbrtmedia {
 namespace {
@@ -15,10 +16,6 @@ Rgb colourOf(float share, ZeroColor zero) {
   const float size = std::abs(share), rest = zero == ZeroColor::White ? decodeSrgb(1 - size) : 0.0f,
               main = zero == ZeroColor::White ? 1.0f : decodeSrgb(size);
   return share < 0 ? Rgb(rest, rest, main) : Rgb(main, rest, rest);
-}
-
-void requireColor(const Image& image) {
-  if (!image.hasRgb()) throw std::invalid_argument("the image has no channels R, G, B or Y");
 }
 
 }  // namespace

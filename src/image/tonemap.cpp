@@ -5,12 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "image/channels.h"
+
 namespace pbrtmedia {
 namespace {
-
-void requireColor(const Image& image) {
-  if (!image.hasRgb()) throw std::invalid_argument("the image has no channels R, G, B or Y");
-}
 
 template <class F>
 void mapColors(Image& image, F&& f) {

@@ -11,6 +11,11 @@ namespace pbrtmedia {
 
 class LightTrials;
 
+/// Smallest weight of a light, as a fraction of the average weight: a light whose power is estimated as 0
+/// (an infinite light around a scene that is a single point, a map with negative texels) is still found.
+/// PBRT-v3's strategy "spatial" has the same number.
+inline constexpr double kSmallestShare = 1e-3;
+
 /// Picks one light of the scene's table for a point (scene-language reference 11.3). Immutable after
 /// construction as far as results are concerned, thread-safe. Never asked when the scene has no lights.
 class LightSelector {

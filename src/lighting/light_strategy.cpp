@@ -15,10 +15,6 @@
 namespace pbrtmedia {
 namespace {
 
-/// Smallest weight of a light, as a fraction of the average weight: a light whose power is estimated as 0
-/// (an infinite light around a scene that is a single point, a map with negative texels) is still found.
-constexpr double kSmallestShare = 1e-3;
-
 class UniformLightSelector final : public LightSelector {
  public:
   UniformLightSelector(std::size_t count, bool leavesOut) : count_(count), leavesOut_(leavesOut) {}

@@ -17,8 +17,6 @@
 namespace pbrtmedia {
 namespace {
 
-constexpr double kSmallestShare = 1e-3;  // of the average power, as in the strategy `power`
-
 /// Luminances, none of them 0.
 std::vector<double> powersOf(std::span<const Illuminant* const> lights) {
   std::vector<double> powers;

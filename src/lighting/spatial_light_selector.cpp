@@ -20,7 +20,6 @@ constexpr std::size_t kSamplesPerVoxel = std::size_t{1} << 17;
 constexpr std::size_t kSamplesInAll = std::size_t{1} << 31;
 /// Table entries of the whole grid, 12 bytes each: 200 MB if every voxel is ever asked for.
 constexpr std::size_t kEntriesInAll = std::size_t{1} << 24;
-constexpr double kSmallestShare = 1e-3;  // of the average weight, as the scene language has it
 
 /// The digits of `index` in `base`, mirrored at the point (van der Corput), in [0, 1).
 float radicalInverse(unsigned base, std::size_t index) {

@@ -11,7 +11,7 @@
 namespace pbrtmedia {
 namespace {
 
-constexpr double kRoom = 1e-6;  // of the distances involved: some float spacings
+constexpr double kDistanceRoom = 1e-6;  // of the distances involved: some float spacings
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void SpotLight::clipToLit(Vec3d o, Vec3d d, double& tMin, double& tMax) const {
   const double root = std::sqrt(discriminant);
   const double low = (-b + (a > 0 ? -root : root)) / a, high = (-b + (a > 0 ? root : -root)) / a;
   // Points are rounded to single precision before the light is asked, so the cut leaves that much room.
-  const double room = kRoom * (length(w0) / length(w1) + std::abs(low) + std::abs(high));
+  const double room = kDistanceRoom * (length(w0) / length(w1) + std::abs(low) + std::abs(high));
   if (a < 0) {  // both crossings on one half of the double cone
     if (along0 + (low + high) / 2 * along1 < 0) {
       tMax = -kInfinity;

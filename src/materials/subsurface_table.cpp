@@ -15,7 +15,7 @@
 namespace pbrtmedia {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi, kInvFourPi = 0.25 * std::numbers::inv_pi;
+constexpr double kInvFourPi = 0.25 * std::numbers::inv_pi;
 
 // The grid of the table, scene-language reference 15.2.
 constexpr std::size_t kAlbedos = 100, kRadii = 64;

@@ -16,7 +16,7 @@ constexpr double kCloseBounds = 0.5;
 constexpr double kLittleWeight = 0.3;
 // Debiased ray marching won at optical depths of 2 to 5.6, drew at 6.7 and lost at 20; with mean densities of
 // 0.18 of the bounds it won, at 0.01 it lost badly.
-constexpr double kThin = 6;
+constexpr double kThinColumn = 6;
 constexpr double kEven = 0.1;
 
 }  // namespace
@@ -29,7 +29,7 @@ AnyEstimator chooseEstimator(const TrackingFacts& facts) {
     if (facts.onlyAbsorbs && lines.pieces > kFewPieces) return TelescopingRayMarching{};
     if (lines.lowerShare >= kCloseBounds) return ResidualRatioTracking{.rouletteThreshold = kLittleWeight};
     if (lines.pieces <= kFewPieces) return RegularTracking{};
-    const bool isThin = lines.column * facts.sigmaT <= kThin;
+    const bool isThin = lines.column * facts.sigmaT <= kThinColumn;
     if (facts.batchedLookups && isThin && lines.meanShare >= kEven) return DebiasedRayMarching{};
   }
   return ratioTrackingWithRoulette();

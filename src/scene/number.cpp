@@ -65,7 +65,6 @@ NumberStatus parse(std::string_view word, T& value) {
   return error == std::errc() && std::isfinite(value) ? NumberStatus::Ok : NumberStatus::NotANumber;
 }
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isHexDigit(char c) { return isDigit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
 char lower(char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); }
 

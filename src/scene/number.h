@@ -29,6 +29,8 @@ struct Decimal {
   bool isDigits = false;  ///< digits only: no sign, point or exponent
 };
 
+inline bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
 /// For more digits than the mantissa has room for: takes the first of them. `digits` ends behind the last and
 /// may hold the point; `d.exponent` is that of the last digit, and becomes that of the mantissa.
 void takeFirstDigits(std::string_view digits, Decimal& d);

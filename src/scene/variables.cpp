@@ -20,7 +20,6 @@ constexpr std::size_t kMostDigits = 99;
 constexpr std::size_t kMostText = std::size_t{1} << 16;
 
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 /// Numbers, strings and brackets, as values of parameters have them.
 bool isTokens(std::string_view text) {

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "shapes/disk.h"
 
-#include <numbers>
-
+#include "base/math.h"
 #include "shapes/parameter_checks.h"
 
 namespace pbrtmedia {
 namespace {
-
-constexpr double kTwoPi = 2 * std::numbers::pi;
 
 double azimuth(Vec3d p) {
   const double phi = std::atan2(p.y, p.x);

@@ -2,12 +2,12 @@
 #include "shapes/revolved_quadric.h"
 
 #include <algorithm>
-#include <numbers>
+
+#include "base/math.h"
 
 namespace pbrtmedia {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 /// Tangents nearer to the axis than this fraction of the radius are those at this distance.
 constexpr double kPoleRadius = 1e-5;
 constexpr int kProjectionSteps = 2;  // Newton, from a point that is right to at least 1e-7

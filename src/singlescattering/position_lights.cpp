@@ -7,12 +7,11 @@
 
 #include "base/hash.h"
 #include "lighting/light_importance.h"
+#include "lighting/light_selector.h"
 
 namespace pbrtmedia {
 namespace {
 
-/// As in light selection: what no power is known of is still found.
-constexpr double kSmallestShare = 1e-3;
 constexpr double kLeastSolidAngle = 1e-3;  // sr: of spot lights that are hardly open
 
 /// Whether distances of density p proportional to 1/r² give less noise than collisions in a medium of this

@@ -7,18 +7,14 @@
 
 #include "base/rng.h"
 #include "base/warp.h"
+#include "support/scene_kit.h"
 
 namespace pbrtmedia {
 namespace {
 
-const BoundaryPlane kFloor{true, {1, 2, 0}, {0, 0, 1}, 2};
+using test::rayOf;
 
-Ray rayOf(Point3f o, Vector3f d) {
-  Ray ray;
-  ray.o = o;
-  ray.d = d;
-  return ray;
-}
+const BoundaryPlane kFloor{true, {1, 2, 0}, {0, 0, 1}, 2};
 
 TEST(ScatterPoint, AwayFromBoundariesIsThePointOfTheRay) {
   RenderCounters counters;

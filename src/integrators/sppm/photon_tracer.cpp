@@ -18,7 +18,7 @@ namespace {
 
 /// Relative to the power of their start, that of light paths below which roulette thins them out. At each
 /// loss (1) photons are all alike and few; far below, paths take long to end that bring little.
-constexpr float kRouletteWeight = 0.5f;
+constexpr float kPhotonRouletteWeight = 0.5f;
 
 /// How far along an endless ray there may be something of the media of a state.
 double reachOf(const MediumState& state, const Ray& ray) {
@@ -212,7 +212,7 @@ Point2f PhotonTracer::uniformSquare() {
 }
 
 bool PhotonTracer::playRoulette() {
-  const float survival = largestChannel(power_) / (kRouletteWeight * startSize_);
+  const float survival = largestChannel(power_) / (kPhotonRouletteWeight * startSize_);
   if (!(survival < 1)) return true;
   if (!(rng_.uniform() < survival)) return false;
   power_ /= survival;

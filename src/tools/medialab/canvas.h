@@ -7,6 +7,8 @@
 
 namespace pbrtmedia {
 
+inline constexpr Rgb kInk{0.1f, 0.1f, 0.1f};  ///< of text and frames
+
 /// A picture to draw plots on, white at first. Coordinates are pixels, y downwards; what lies outside is cut
 /// off. Colours are sRGB components in [0, 1].
 class LabCanvas {

@@ -9,6 +9,7 @@
 #include "freeflight/any_flight.h"
 #include "reciprocal/any_reciprocal.h"
 #include "tools/medialab/estimator.h"
+#include "tools/medialab/selection.h"
 #include "transmittance/law.h"
 
 namespace pbrtmedia {
@@ -21,15 +22,6 @@ void printParameters(std::ostream& out, const std::vector<ParameterDescription>&
     out << "| `" << p.name << "` | " << p.type << " | " << p.value << " | " << p.allowed << " | " << p.help
         << " |\n";
   }
-}
-
-std::string joined(const std::vector<std::string_view>& words) {
-  std::string out;
-  for (const std::string_view word : words) {
-    if (!out.empty()) out += ", ";
-    out += word;
-  }
-  return out;
 }
 
 /// The first letter as a capital.

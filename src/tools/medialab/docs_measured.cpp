@@ -36,7 +36,7 @@ std::string brief(double value) {
 }
 
 /// Standard deviations below this part of T are rounding.
-constexpr double kRounding = 1e-9;
+constexpr double kMeasuredRounding = 1e-9;
 
 struct Measured {
   double value;  ///< variance times cost
@@ -64,7 +64,7 @@ std::map<std::pair<std::string, std::string>, Measured> measuredCells(const LabT
     const LabEstimator estimator(row[estimatorAt].text());
     const bool isUnbiased = estimator.bias() == EstimatorTraits::Bias::Unbiased;
     const double exact = row[exactAt].number(), variance = row[varianceAt].number();
-    const double rounding = kRounding * exact;
+    const double rounding = kMeasuredRounding * exact;
     cells[{row[estimatorAt].text(), row[functionAt].text()}] = {
         variance > rounding * rounding ? variance * row[costAt].number() * unit : 0,
         isUnbiased ? 0 : row[meanAt].number() / exact - 1,
@@ -219,7 +219,7 @@ std::map<std::string, Duel> duelsBy(const LabTable& table, const char* cost) {
     const double exact = row[at("exact")].number(), variance = row[at("variance")].number();
     const std::string function = row[at("extinction")].text();
     const Side side{variance * row[at(cost)].number(), row[at("variance_stderr")].number() / variance,
-                    !(variance > kRounding * kRounding * exact * exact)};
+                    !(variance > kMeasuredRounding * kMeasuredRounding * exact * exact)};
     const std::tuple key{function, row[at("depth")].number(), row[at("control")].number()};
     if (row[at("estimator")].text() == kRival) {
       rivals.emplace(key, side);

@@ -21,7 +21,7 @@ using Measure = Heatmap::Measure;
 
 /// Trials per look-up of the budget at most, for estimates that look nowhere.
 constexpr std::uint64_t kTrialsPerLookup = 4;
-constexpr double kRounding = 1e-9;
+constexpr double kRoundingOfMeans = 1e-9;
 
 /// The densities of a map: one for all columns, or a family with one for each.
 class Columns {
@@ -222,9 +222,9 @@ std::size_t Heatmap::best(std::size_t pixel, Measure measure) const {
     double value = p.value(measure);
     if (!std::isfinite(value)) continue;
     if (!layers[l].isUnbiased) continue;
-    const double rounding = kRounding * p.exact;
+    const double rounding = kRoundingOfMeans * p.exact;
     if (p.variance <= rounding * rounding) {
-      if (std::abs(p.mean - p.exact) > kRounding * p.exact) continue;
+      if (std::abs(p.mean - p.exact) > kRoundingOfMeans * p.exact) continue;
       value = 0;
     }
     if (best != kNoBest && (value > least || (value == least && p.lookups >= leastLookups))) continue;

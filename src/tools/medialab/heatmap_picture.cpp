@@ -13,7 +13,6 @@ namespace {
 
 using Measure = Heatmap::Measure;
 
-constexpr Rgb kInk{0.1f, 0.1f, 0.1f};
 constexpr int kPanel = 220;  ///< least width of a panel's map, pixels
 constexpr int kMargin = 14, kAxis = 40, kTitle = 24, kLegend = 300, kBar = 16;
 /// The scale covers all values but these shares of the darkest and of the brightest, and no more decades: a

@@ -89,8 +89,8 @@ LabTable emptyTable(const ProfileOptions& o) {
 /// The field as a curve, its controls as steps, below it a row of ticks for each estimate.
 Image plot(const Profile& profile) {
   constexpr int kWidth = 800, kHeight = 360, kLeft = 70, kTop = 40, kTickRow = 22;
-  constexpr Rgb kInk{0.1f, 0.1f, 0.1f}, kField{0, 0.35f, 0.75f}, kUpper{0.85f, 0.2f, 0.1f},
-      kLower{0.1f, 0.55f, 0.2f}, kMean{0.6f, 0.6f, 0.6f};
+  constexpr Rgb kField{0, 0.35f, 0.75f}, kUpper{0.85f, 0.2f, 0.1f}, kLower{0.1f, 0.55f, 0.2f},
+      kMean{0.6f, 0.6f, 0.6f};
   const CanonicalLine& line = profile.problem.line;
   const int rows = static_cast<int>(profile.labels.size());
   LabCanvas canvas(kLeft + kWidth + 220, kTop + kHeight + 40 + rows * kTickRow);

@@ -16,9 +16,8 @@ using Kind = StressVerdict::Kind;
 using Bias = EstimatorTraits::Bias;
 using Control = EstimatorTraits::Control;
 
-constexpr double kMostAbsZ = 5;
 /// Of 1/F, relative: sums and quotients of many roundings.
-constexpr double kRounding = 1e-12;
+constexpr double kReciprocalRounding = 1e-12;
 /// So many expected events are all missed with the two-sided probability of |z| > 5.
 constexpr double kMissedEvents = 14.38;
 /// Points of the quadrature in a stretch at least, and on the line.
@@ -120,7 +119,8 @@ StressVerdict judgeReciprocal(const ReciprocalTraits& t, const ReciprocalSetting
     return conclude(Kind::Fail, std::to_string(stats.nonFinite) + " values not finite");
   }
   const double distance = stats.value.mean() - s.exact;
-  const double beyond = std::copysign(std::max(0.0, std::abs(distance) - kRounding * s.exact), distance);
+  const double beyond =
+      std::copysign(std::max(0.0, std::abs(distance) - kReciprocalRounding * s.exact), distance);
   verdict.z = beyond == 0 ? 0 : beyond / stats.value.meanError();
   if (t.bias != Bias::Unbiased) {
     verdict.unbiased = "not claimed";

@@ -28,15 +28,6 @@ std::string inQuotes(std::string_view text) {
   return out;
 }
 
-std::string joined(const std::vector<std::string_view>& words) {
-  std::string out;
-  for (const std::string_view word : words) {
-    if (!out.empty()) out += ", ";
-    out += word;
-  }
-  return out;
-}
-
 Assignment parseAssignment(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string_view::npos || equals + 1 == text.size()) {
@@ -163,6 +154,15 @@ void requireOneQuantity(const std::vector<LabEstimator>& chosen, const std::opti
 }
 
 }  // namespace
+
+std::string joined(const std::vector<std::string_view>& words) {
+  std::string out;
+  for (const std::string_view word : words) {
+    if (!out.empty()) out += ", ";
+    out += word;
+  }
+  return out;
+}
 
 bool EstimatorSelection::isAll() const {
   return std::find(estimators.begin(), estimators.end(), kAll) != estimators.end();

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "fields/canonical_function.h"
@@ -34,6 +35,9 @@ struct EstimatorSelection {
 
 /// Tells in a table what its estimators estimate, unless that is the transmittance.
 void noteQuantity(LabTable& table, const std::vector<LabEstimator>& estimators);
+
+/// With commas between them.
+std::string joined(const std::vector<std::string_view>& words);
 
 /// The densities that a command asks for.
 struct FunctionSelection {

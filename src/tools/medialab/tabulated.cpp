@@ -33,7 +33,7 @@ std::optional<double> takeNumber(std::string_view& text) {
   return value;
 }
 
-struct Point {
+struct TablePoint {
   double x, density;
 };
 
@@ -51,7 +51,7 @@ class Table {
       fail("found " + std::to_string(points_.size()) + " points, expected two at least");
   }
 
-  const std::vector<Point>& points() const { return points_; }
+  const std::vector<TablePoint>& points() const { return points_; }
   [[noreturn]] void fail(const std::string& problem) const {
     throw std::runtime_error(path_ + ':' + std::to_string(line_) + ": " + problem);
   }
@@ -79,14 +79,14 @@ class Table {
   std::ifstream file_;
   std::size_t line_ = 0;
   bool hasTitle_ = false;
-  std::vector<Point> points_;
+  std::vector<TablePoint> points_;
 };
 
 }  // namespace
 
 CanonicalFunction readTabulatedFunction(const std::filesystem::path& path) {
   const Table table(path);
-  const std::vector<Point>& p = table.points();
+  const std::vector<TablePoint>& p = table.points();
   std::vector<CanonicalFunction::Stretch> stretches;
   double end = 0;
   bool isEmpty = true;

@@ -15,7 +15,6 @@ using Kind = StressVerdict::Kind;
 using End = IsolatedResult::End;
 using Control = EstimatorTraits::Control;
 
-constexpr double kMostAbsZ = 5;
 constexpr double kLogRare = -14.38;  ///< log of the two-sided probability of |z| > 5, 5.7e-7
 constexpr double kFewTrials = 8;
 /// One trial's share of the variance above which the variance is not known.

@@ -9,6 +9,9 @@
 
 namespace pbrtmedia {
 
+/// Standard errors beyond which a mean is wrong.
+inline constexpr double kMostAbsZ = 5;
+
 /// What a stress test concludes from the trials of one cell.
 struct StressVerdict {
   enum class Kind {
