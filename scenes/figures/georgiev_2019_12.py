@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: BSD-2-Clause
+import math
+
 from compare.lab_plot import lab_figure
 from figurekit.catalogue import Figure
 from figurekit.intervals import Interval, ratio
 from figurekit.known import rows_of
 from figurekit.plotting import curve, legend_below, log_axes, panels
+from figurekit.programs import Row
 from figurekit.run import Run
 
 FIGURE = Figure(
@@ -16,10 +19,33 @@ PAIRS = ((1, 2.2222), (1, 10), (3, 6.6667))
 PATTERNS = ("independent", "latinhypercube", "hammersley")
 ESTIMATORS = ("ratio", "p-series-ratio")
 LARGEST = 2.0
+# Slopes of the variance with Hammersley points from 16 to 1024 estimates, by estimator and pair.
+SLOPES = {"ratio": ("-1.5", "-1.2", "-1.2"), "p-series-ratio": ("-1.6", "-1.8", "-1.4")}
+
+
+def at(rows: list[Row], count: int) -> Row:
+    return next(r for r in rows if int(float(r["samples"])) == count)
+
+
+def square_error(row: Row) -> tuple[float, float]:
+    return float(row["rmse"])**2, 2 * float(row["rmse"]) * float(row["rmse_stderr"])
+
+
+def check_gains(run: Run, found: dict) -> None:
+    """Slopes with Hammersley points, and what Latin hypercubes gain at 1024 estimates: the least and the most of all pairs and estimators."""
+    gains = []
+    for name, slopes in SLOPES.items():
+        for (depth, control), printed in zip(PAIRS, slopes, strict=True):
+            (few, few_error), (many, many_error) = (square_error(at(found[depth, control, "hammersley", name], n)) for n in (16, 1024))
+            run.expect(f"slope of {name}, hammersley, {depth}, {control}", printed, math.log(many / few) / math.log(64), math.hypot(few_error / few, many_error / many) / math.log(64))
+            (plain, plain_error), (cube, cube_error) = (square_error(at(found[depth, control, p, name], 1024)) for p in PATTERNS[:2])
+            gains.append((plain / cube, plain / cube * math.hypot(plain_error / plain, cube_error / cube)))
+    for what, printed, (gain, error) in (("least", "1.7", min(gains)), ("largest", "14", max(gains))):
+        run.expect(f"{what} gain of Latin hypercubes", printed, gain, error)
 
 
 def make(run: Run) -> None:
-    trials, doublings = run.pick(512, 128), run.pick(10, 8)
+    trials, doublings = run.pick(512, 256), 10
     plot, axes = panels(3, 3, (2.6, 2.5), [f"tau {t:g}, control {c:.3g}" for t, c in PAIRS])
     found: dict = {}
     for (depth, control), panel in zip(PAIRS, axes):
@@ -41,11 +67,10 @@ def make(run: Run) -> None:
     for known in rows_of("stratified_means"):
         for pattern in PATTERNS:
             for name, prefix in zip(ESTIMATORS, ("ratio", "p")):
-                row = next((r for r in found[float(known["tau"]), float(known["control"]), pattern, name] if int(float(r["samples"])) == int(known["n"])), None)
-                if row and (pattern != "hammersley" or int(known["n"]) == 1):  # ours are randomised in another way
-                    square = float(row["rmse"])**2
-                    error = 2 * float(row["rmse"]) * float(row["rmse_stderr"])
-                    run.expect(f"{name}, {pattern}, {known['tau']}, {known['control']}, N = {known['n']}", known[f"{prefix}_{pattern}"], square, error, 0.02 * square)
+                row = at(found[float(known["tau"]), float(known["control"]), pattern, name], int(known["n"]))
+                square, error = square_error(row)
+                run.expect(f"{name}, {pattern}, {known['tau']}, {known['control']}, N = {known['n']}", known[f"{prefix}_{pattern}"], square, error, 0.02 * square)
+    check_gains(run, found)
     for depth, control in PAIRS:
         for name in ESTIMATORS:
             last = [found[depth, control, p, name][-1] for p in PATTERNS]
