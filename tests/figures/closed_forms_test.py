@@ -5,7 +5,8 @@ import unittest
 
 import numpy as np
 
-from figurekit.closed_forms import Roulette, bk_variance, cmf_moments, poisson, ratio_variance, tracking_variance, ubk_variance
+from figurekit.closed_forms import (Roulette, bk_variance, certain_levels, cmf_moments, cmf_reach, fitted_lookups, poisson, ratio_variance, teeth, tracking_variance,
+                                    ubk_variance)
 from figurekit.known import rows_of
 from figurekit.printed import disagreement
 
@@ -41,6 +42,18 @@ class ClosedFormsTest(unittest.TestCase):
         second, _ = cmf_moments(control, 0.55, (0.04 + 0.81) / 2)
         squares = np.square(found)
         self.assertLess(abs(squares.mean() - second), 4 * squares.std() / math.sqrt(len(squares)))
+
+    def test_p_series_cmf_evaluates_the_levels_of_its_table(self):
+        for row in rows_of("level_counts"):
+            control = float(row["control"])
+            for law, is_printed in (("printed", True), ("code", False)):
+                self.assertEqual(certain_levels(control, is_printed), int(row[f"certain_{law}"]), control)
+                self.assertLessEqual(disagreement(row[f"lookups_{law}"], cmf_reach(control, is_printed)[1:].sum()), 1, control)
+            self.assertEqual(fitted_lookups(control), int(row["fit"]), control)
+
+    def test_combs_have_the_teeth_of_their_tables(self):
+        for row in rows_of("canonical_lines"):
+            self.assertEqual(teeth(-math.log(float(row["T"])) / float(row["ratio"]), Roulette(2, 0.9)), int(row["teeth"]), row)
 
     def test_the_roulette_has_its_mean_number_of_terms(self):
         self.assertAlmostEqual(Roulette(1).mean_orders(), math.e - 1, places=12)

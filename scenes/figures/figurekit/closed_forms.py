@@ -30,20 +30,43 @@ def tracking_variance(extinction: Callable[[np.ndarray], np.ndarray], length: fl
     return math.exp(second) - math.exp(-2 * depth)
 
 
+def certain_levels(control: float, is_printed: bool = False) -> int:
+    """Of p-series CMF under a control of this optical depth; Georgiev et al. 2019 (31). Published code has one more than printed."""
+    certain, below = 1, 0.0
+    while True:
+        below += math.exp((certain - 1) * math.log(control) - control - math.lgamma(certain))
+        if below >= 0.99:
+            return certain - is_printed
+        certain += 1
+
+
+def cmf_reach(control: float, is_printed: bool = False) -> np.ndarray:
+    """Probabilities that p-series CMF evaluates its levels 0, 1, ..., down to 1e-30."""
+    reach = [1.0] * (certain_levels(control, is_printed) + 1)
+    while reach[-1] > 1e-30:
+        reach.append(reach[-1] * min(1.0, control / len(reach)))
+    return np.array(reach)
+
+
+def fitted_lookups(control: float) -> int:
+    """What p-series CMF costs under a control of this optical depth, nearly; Kettunen et al. 2021, section 4.6."""
+    return math.ceil(((0.015 + control) * (0.65 + control) * (60.3 + control))**(1 / 3))
+
+
+def teeth(control: float, roulette: "Roulette") -> int:
+    """Of each comb of unbiased ray marching that costs what p-series CMF does; Kettunen et al. 2021, section 4.6."""
+    return max(1, math.floor(fitted_lookups(control) / (1 + roulette.mean_orders()) + 0.5))
+
+
 def cmf_moments(control: float, mean: float, square: float) -> tuple[float, float]:
     """Second moment and mean look-ups of p-series CMF under a control of this optical depth, `mean` and `square` being those of 1 - extinction / control at points spread by
-    it; Georgiev et al. 2019 (31), with one more certain level than printed, as published code has."""
-    weights, certain, below = poisson(control, TERMS), 1, 0.0
-    while below + weights[certain - 1] < 0.99:
-        below += weights[certain - 1]
-        certain += 1
-    reach = np.ones(TERMS + 1)
-    for k in range(certain + 1, TERMS + 1):
-        reach[k] = reach[k - 1] * min(1.0, control / k)
+    it; with the certain levels of published code."""
+    reach = cmf_reach(control)
+    weights = poisson(control, len(reach) - 1)
     second = before = 0.0
     power = 1.0
-    for k in range(TERMS + 1):
-        a = weights[k] / reach[k] if reach[k] > 1e-290 else 0.0
+    for k in range(len(reach)):
+        a = weights[k] / reach[k]
         second += reach[k] * a * (a * power + 2 * before)
         before = mean * (before + a * power)
         power *= square
