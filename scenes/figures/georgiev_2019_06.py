@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
+import math
+
 import numpy as np
 
 from figurekit.catalogue import Figure
@@ -47,5 +49,6 @@ def make(run: Run) -> None:
     # Ratio tracking's own variance lies in events of some 1e-6, which no run of this size sees.
     row, = run.lab("estimate", trials=run.pick(2_000_000, 200_000), estimator="residual-ratio", **problem)
     run.expect("variance of residual-ratio", f"{exact[1]:.4e}", float(row["variance"]), float(row["variance_stderr"]))
+    run.expect("look-ups of residual-ratio", "6.00", float(row["lookups"]), math.sqrt(6 / float(row["trials"])))
     run.claim("variance of ratio tracking (exact) over residual ratio tracking's", ratio(exact[0], 0, float(row["variance"]), float(row["variance_stderr"])), above=1)
     run.time_twin(["ratio", "residual-ratio"], doublings=run.pick(12, 8), **problem)

@@ -58,6 +58,15 @@ def make(run: Run) -> None:
     axes[0].legend(fontsize=6.5, frameon=False)
     run.plot(plot)
     run.table(table)
+    for c in (1, 2, 4):
+        rate = Roulette(c).mean_orders()
+        for d in DELTAS:
+            if rate * ((1 + d / rate)**2 - 1)**2 < 5:  # otherwise the variance lies in rare events
+                row, = run.lab("estimate", estimator="residual-ratio", extinction="constant", depth=DEPTH, control=(DEPTH + d + rate) / DEPTH, lower_depth=DEPTH + d,
+                               trials=run.pick(1_000_000, 100_000))
+                relative, error = (float(row[k]) * math.exp(2 * DEPTH) for k in ("variance", "variance_stderr"))
+                run.expect(f"measured variance of residual ratio tracking, c = {c}, delta = {d}", f"{relative_residual(rate, d):.6e}", relative, error)
+                run.expect(f"measured look-ups of residual ratio tracking, c = {c}, delta = {d}", f"{rate:.6f}", float(row["lookups"]), math.sqrt(rate / float(row["trials"])))
     for known in rows_of("roulette_variance"):
         c, zero = float(known["c"]), float(known["zero"]) if known["zero"] else None
         roulette = Roulette(c, zero)

@@ -43,6 +43,8 @@ def make(run: Run) -> None:
         for law, variance in (("bk", bk_variance), ("ubk", ubk_variance)):
             run.expect(f"{law}, s2 = {known['s2']}, delta = {known['delta']}", known[law],
                        variance(ROULETTE, -1 - float(known["delta"]), float(known["delta"]), float(known["s2"]), 1.0))
+    for law in (bk_variance, ubk_variance):
+        run.expect("variance at tau = 4 over that at 1", "2.479e-3", law(ROULETTE, -4.3, 0.3, 0.1, 4.0) / law(ROULETTE, -1.3, 0.3, 0.1, 1.0))
     worst = max(ubk_variance(ROULETTE, -1 - d, d, s, 1.0) / bk_variance(ROULETTE, -1 - d, d, s, 1.0) for s in SPREADS[1:] for d in fine)
     run.claim("U-BK is never above, largest variance over the plain one's", Interval.exact(worst), below=1 + 1e-9)
     run.claim("the plain one's best pivot moves right, at factor variance 1", Interval.exact(best["bhanot-kennedy", 1.0]), above=0.05, unit="beyond tau")

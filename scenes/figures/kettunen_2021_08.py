@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: BSD-2-Clause
 import math
 
+import numpy as np
+
 from compare.slope import slope_of
 
 from figurekit.catalogue import Figure
-from figurekit.closed_forms import Roulette, bk_variance, ubk_variance
+from figurekit.closed_forms import Roulette, bk_variance, cosine, ubk_variance
 from figurekit.intervals import Interval, ratio
 from figurekit.known import rows_of
 from figurekit.plotting import curve, log_axes, panels
@@ -49,6 +51,11 @@ def make(run: Run) -> None:
     names = [f"{e}:pivot=fixed:pivotdepth={p:g}:expansion={c}" + (":tuplesize=1" if e == "u-bk" else "") for e in ("bhanot-kennedy", "u-bk") for p in (2, 1) for c in (2, 8)]
     rows = run.lab("estimate", estimator=names, extinction="cosine", depth=1, trials=run.pick(1_000_000, 100_000))
     run.unbiased(rows, 1e-6)
+    shape = cosine((np.arange(100_000) + 0.5) / 100_000)
+    spread = float(shape.var() / shape.mean()**2)  # 20 is not quite a whole number of periods: nearly 0.5
+    settings = [(law, p, c) for law in (bk_variance, ubk_variance) for p in (2, 1) for c in (2, 8)]
+    for row, (law, p, c) in zip(rows, settings, strict=True):
+        run.expect(f"measured variance of {row['estimator']}", f"{law(Roulette(c), -p, p - 1, spread, 1.0):.5e}", float(row["variance"]), float(row["variance_stderr"]))
     by_name = {str(r["estimator"]): r for r in rows}
     pair = [by_name["bhanot-kennedy:pivot=fixed:pivotdepth=1:expansion=8"], by_name["u-bk:pivot=fixed:pivotdepth=1:expansion=8:tuplesize=1"]]
     run.claim("in run time, c = 8, true pivot: variance x seconds of the plain one over U-BK's",
