@@ -42,5 +42,7 @@ def make(run: Run) -> None:
     last = found["off"][-1], found["on"][-1]
     run.claim("64 teeth: variance x look-ups without matched ends over that with them", ratio(*(float(r[c]) * float(r["lookups"]) for r in last for c in ("variance", "variance_stderr"))), above=10)
     straight = [run.lab("estimate", estimator=f"unbiased-ray-marching:tuplesize={m}:endpointmatching=on", extinction="linear-up", depth=1, trials=1000)[0] for m in (1, 2, 5, 8)]
+    for row in straight:
+        run.expect(f"variance on a straight density, {row['estimator']}", "0e-12", float(row["variance"]))
     run.claim("a straight density is exact with matched ends for every number of teeth, largest deviation", Interval.exact(max(float(r["variance"])**0.5 for r in straight)), below=1e-6)
     run.time_twin([f"unbiased-ray-marching:tuplesize=16:endpointmatching={m}" for m in ("off", "on")], extinction="fractal-b", depth=1.5, doublings=run.pick(9, 7))
