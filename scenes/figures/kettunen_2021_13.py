@@ -35,6 +35,10 @@ def make(run: Run) -> None:
             told = "unequal ends: variance x look-ups without matching over that with it" if density == "fractal-b" else "similar ends: variance x look-ups with matching over that without"
             run.claim(f"{told}, control raised by {factor:g}", ratio(*(float(r[c]) * float(r["lookups"]) for r in pair for c in ("variance", "variance_stderr"))), **limit,
                       why="two look-ups more are a large share where a comb has few teeth")
+    plain = [next(r for r in found["fractal-b"] if r["estimator"] == URM and r["control"] == f) for f in (FACTORS[0], FACTORS[-1])]
+    decade = math.log(float(plain[1]["lookups"]) / float(plain[0]["lookups"]))
+    run.expect("unequal ends, not matched: slope of the variance", "-2.0", math.log(float(plain[1]["variance"]) / float(plain[0]["variance"])) / decade,
+               math.hypot(*(float(r["variance_stderr"]) / float(r["variance"]) for r in plain)) / decade)
     check_known(run, "fractal-b", ".22")
     check_known(run, "fractal-a", ".85")
     run.time_twin(ESTIMATORS, extinction="fractal-b", depth=-math.log(0.22), control=[1, 16], doublings=run.pick(10, 7))
