@@ -36,6 +36,7 @@ def make(run: Run) -> None:
         curve(panel, sizes, errors, index, f"alpha = {alpha:g}: {slope.value:.2f}", [float(r["error_stderr"]) for r in found])
         curve(timed, [seconds * n for n in sizes], errors, index, f"alpha = {alpha:g}")
         panel.plot(sizes, [errors[-1] * (n / sizes[-1])**expected for n in sizes], ":", color="#999999", linewidth=0.8)
+        run.expect(f"slope, alpha = {alpha:g}", f"{max(-0.5, alpha - 1):.1f}", float(found[0]["slope"]), float(found[0]["slope_stderr"]))
         run.claim(f"alpha = {alpha:g}: slope {expected:g}, ours", slope, above=expected - 0.1, below=expected + 0.1, why="means of few trials lack the largest values")
     for axes, name in ((panel, "points"), (timed, "CPU seconds")):
         log_axes(axes)

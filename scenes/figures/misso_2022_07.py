@@ -1,4 +1,8 @@
 # SPDX-License-Identifier: BSD-2-Clause
+import math
+
+import numpy as np
+
 from compare.slope import slope_of
 from figurekit.catalogue import Figure
 from figurekit.intervals import Interval, ratio
@@ -53,7 +57,9 @@ def make(run: Run) -> None:
     repeats = [corrections(run, seed, trials // 8, levels) for seed in range(2, 10)]
     for kind, slope, what in ((INDEPENDENT, -1, "independent: slope -1 of the variance over points"), (HALVES, -2, "read off the same points: slope -2")):
         slopes = [slope_of(points(r[kind])[2:], [float(row["variance"]) for row in r[kind]][2:]) for r in repeats]
-        run.claim(what, Interval.mean([s for s in slopes if s is not None]), above=slope - 0.15, below=slope + 0.15)
+        slopes = [s for s in slopes if s is not None]
+        run.expect(f"slope of the variance, {kind}", f"{slope}.0", float(np.mean(slopes)), float(np.std(slopes, ddof=1)) / math.sqrt(len(slopes)))
+        run.claim(what, Interval.mean(slopes), above=slope - 0.15, below=slope + 0.15)
     run.claim("one comb falls faster still: its variance at level 4 over that of random points",
               ratio(*(float(found[kind][4][c]) for kind in (COMB, HALVES) for c in ("variance", "variance_stderr"))), below=0.1)
     run.claim("independent: the work-normalised variance grows from level to level, last over first", Interval.exact(work(found[INDEPENDENT][-1]) / work(found[INDEPENDENT][0])), above=1)

@@ -2,6 +2,7 @@
 import math
 
 from figurekit.catalogue import Figure
+from figurekit.convergence_on_lines import square_error
 from figurekit.intervals import Interval, ratio
 from figurekit.known import rows_of
 from figurekit.plotting import curve, legend_below, log_axes, panels
@@ -34,11 +35,17 @@ def check_known(run: Run) -> None:
                        param=f"correlation={correlation}" if correlation else None, trials=run.pick(1_000_000, 100_000))
         what = f"{known['estimator']} on {known['function']}, {known['law']}"
         variance, cost = known["moments"].split("/")
-        error, lookups, trials = float(row["variance_stderr"]), float(row["lookups"]), float(row["trials"])
-        run.expect(f"variance of {what}", variance, float(row["variance"]), error, error * math.sqrt(trials / 2e6))
+        (square, error), lookups, trials = square_error(row), float(row["lookups"]), float(row["trials"])
+        run.expect(f"squared error of {what}", variance, square, error, error * math.sqrt(trials / 2e6))
         # Look-ups of random levels have no variance, rare ones carry much of their mean.
         spread = 0.02 * lookups if known["estimator"].startswith("debiased") else (1 + 2 * lookups) / math.sqrt(trials)
         run.expect(f"cost of {what}", cost, lookups, spread)
+    # Two teeth or more integrate a whole period exactly, at every level.
+    for n in (1, 2, 4, 8):
+        row, = run.lab("estimate", estimator=f"debiased-ray-marching:n={n}:levels=0", extinction="sine", depth=1, trials=run.pick(1_000_000, 100_000))
+        run.expect(f"cost of debiased ray marching from {n} look-ups on", f"{2 * n * 2.1667:.3f}", float(row["lookups"]), 0.02 * float(row["lookups"]))
+        if n > 1:
+            run.expect(f"variance of debiased ray marching from {n} look-ups on, on one period of a sine", "0e-12", float(row["variance"]))
 
 
 def make(run: Run) -> None:

@@ -49,6 +49,8 @@ def check_known(run: Run) -> Interval:
     """The mean of the first kernel, and the density of hits beside the foot."""
     run.expect("irradiance of the foot", "1.591549", TRUTH)
     run.expect("mean of the kernel, by quadrature", "1.580462", blurred(RADIUS))
+    run.expect("bias of the kernel, percent", "-0.697", 100 * (blurred(RADIUS) / TRUTH - 1))
+    run.expect("bias of the kernel to first order, over its squared radius", "-0.450", (blurred(0.01) / TRUTH - 1) / 0.01**2)
     seeds, photons = run.pick(32, 16), run.pick(200_000, 30_000)
     means = [irradiance(run.render(SCENE, 4, seed=s, define={**FIXED, "photons": photons})) for s in range(1, seeds + 1)]
     run.expect("mean of the kernel, measured", "1.580462", float(np.mean(means)), float(np.std(means, ddof=1) / math.sqrt(seeds)))
