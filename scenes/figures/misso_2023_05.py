@@ -29,6 +29,7 @@ def make(run: Run) -> None:
     whole = extinction(x)
     cut = np.minimum(whole, 1)
     run.expect("largest extinction", "1.6463", float(whole.max()))
+    run.expect("least extinction", "0.4403", float(whole.min()))
     run.expect("transmittance", "0.367879", math.exp(-float(((whole[1:] + whole[:-1]) / 2).mean())))
     plot, axes = panels(4, 4, (1.95, 2.1), ["extinction", "transmittance up to x", "whole", "cut at 0.4"])
     for index, (name, values) in enumerate((("whole", whole), ("cut at 1", cut))):

@@ -26,6 +26,12 @@ def make(run: Run) -> None:
             run.expect(f"variance of {name} on {function}", known[f"{name}_mse"], float(row["variance"]), errors[0], errors[0] / 3)
             run.expect(f"look-ups of {name} on {function}", known[f"{name}_cost"], float(row["lookups"]), errors[1])
         gain = ratio(*(float(r[c]) * float(r["lookups"]) for r in rows for c in ("variance", "variance_stderr")))
+        products = [float(r["variance"]) * float(r["lookups"]) for r in rows]
+        shares = [math.hypot(float(r["variance_stderr"]) / float(r["variance"]), math.sqrt(4 / (float(r["lookups"]) * float(r["trials"])))) for r in rows]
+        for name, product, share in zip(("ratio", "adaptive"), products, shares, strict=True):
+            run.expect(f"variance x look-ups of {name} on {function}", known[f"{name}_product"], product, product * share, product * share / 3)
+        factor, share = products[0] / products[1], math.hypot(*shares)
+        run.expect(f"gain of adaptive on {function}", known["gain"], factor, share * factor, share * factor / 3)
         run.claim(f"{function}: variance x look-ups of ratio tracking over adaptive's", gain, above=1)
         run.claim(f"{function}: the same in run time", ratio(*(float(r[c]) * float(r["seconds_per_estimate"]) for r in rows for c in ("variance", "variance_stderr"))), above=1,
                   why="a step of changing rate costs more than the look-ups it saves")

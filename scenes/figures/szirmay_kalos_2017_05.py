@@ -16,11 +16,14 @@ FIGURE = Figure(
 
 
 def make(run: Run) -> None:
+    _, fine = sine_line(40_001)
+    square = float(np.mean((fine[1:]**2 + fine[1:] * fine[:-1] + fine[:-1]**2) / 3) * 20)
+    depth = float(((fine[1:] + fine[:-1]) / 2).mean() * 20)
     z, density = sine_line()
-    square = float(np.mean((density[1:]**2 + density[1:] * density[:-1] + density[:-1]**2) / 3) * 20)
-    depth = float(((density[1:] + density[:-1]) / 2).mean() * 20)
-    run.expect("optical depth of the ray", "3.4157", depth)
-    run.expect("integral of the squared extinction", "1.9608", square)
+    run.expect("optical depth of the ray", "3.415684", depth)
+    run.expect("transmittance of the ray", "3.28539e-2", math.exp(-depth))
+    run.expect("integral of the squared extinction", "1.960753", square)
+    run.expect("largest extinction on the ray", "0.95598", float(fine.max()))
     table = run.text_file("ray.csv", "x,density\n" + "".join(f"{a:.9g},{b:.9g}\n" for a, b in zip(z, density)))
     for known in rows_of("sine_ray"):
         rate = float(known["rate"])
