@@ -11,9 +11,8 @@ namespace pbrtmedia {
 /// group has its own shuffled index and key, per pixel. So there is no limit to the dimensions.
 ///
 /// `Sequence` has as static functions
-///   float value(int dimension, std::uint64_t index, std::uint64_t count, std::uint64_t key): dimension 0 to
-///   3
-///       of a point, scrambled by `key`, where indices are taken in blocks of `count`;
+///   float value(int dimension, std::uint64_t index, std::uint64_t count, std::uint64_t key): one of the
+///       dimensions 0 to 3 of a point, scrambled by `key`, where indices are taken in blocks of `count`;
 ///   Point2f arrayPoint(std::uint64_t index, std::uint64_t all, std::uint64_t key): a point of an array, of
 ///       which `all` are in a pixel.
 template <class Sequence>
